@@ -92,6 +92,15 @@ double eval_reading_rate(const JointOn<G, double>& reading, const FieldOn<G, dou
   return eval_read_effort<G, T>(reading, p, field.around.has_inertia, turns).c[1];
 }
 
+lanes::Taylor<double, 3> eval_reading_series(const Joint& reading, const Field& field, double turns) {
+  using T = lanes::Taylor<double, 3>;
+  const auto anchor = anchor_of(reading, field.nodes);
+  PortMotion<T> p[2];
+  for (int k = 0; k < 2; ++k)
+    p[k] = series_of<3>(eval_port(reading.ports[k], field.nodes, anchor, field.carriers), Vec6<double>::zero());
+  return eval_read_effort<motion::Se3, T>(reading, p, false, turns);
+}
+
 #define BOUGH_INSTANTIATE_READING(G)                                                                   \
   template double eval_reading(const JointOn<G, double>&, const FieldOn<G, double>&, double, double*); \
   template double eval_reading_rate(const JointOn<G, double>&, const FieldOn<G, double>&, double);

@@ -77,6 +77,7 @@ class Converter : private ValueConverter {
   // Signals (read_scene_signals.cpp).
   void find_signal_names();
   void signal_formula(const Value& v, const std::string& at, scene::Signal& s);
+  void signal_surface(const Value& v, const std::string& at, scene::Signal& s);
   void signal(const Value& v, const std::string& at);
   laws::Law law_or_signal(const Value& v, const std::string& at, std::string& signal);
 

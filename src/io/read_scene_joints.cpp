@@ -157,8 +157,9 @@ void Converter::joint(const Value& v, const std::string& at) {
   const Value& drives = *v.find("drives");
   for (std::size_t i = 0; i < drives.items.size(); ++i) {
     const Value& d = drives.items[i];
-    j.drives.push_back(
-        {coordinate(d), d.find("rate")->truth, law(*d.find("law"), at + "/drives/" + std::to_string(i) + "/law")});
+    scene::JointDrive drive{coordinate(d), d.find("rate")->truth, {}, {}};
+    drive.law = law_or_signal(*d.find("law"), at + "/drives/" + std::to_string(i) + "/law", drive.signal);
+    j.drives.push_back(std::move(drive));
     if (turns(j.drives.back().coordinate) && !j.drives.back().is_rate)
       warn_of_degrees(j.drives.back().law, at + "/drives/" + std::to_string(i) + "/law");
   }

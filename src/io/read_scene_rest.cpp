@@ -58,12 +58,13 @@ void Converter::motion(const Value& v, const std::string& at) {
   m.at = attachment(*v.find("at"), at + "/at");
   const char* const names[3] = {"x", "y", "z"};
   for (int k = 0; k < 3; ++k)
-    if (const Value* d = v.find(names[k])) m.displacement[k] = law(*d, at + "/" + names[k]);
+    if (const Value* d = v.find(names[k]))
+      m.displacement[k] = law_or_signal(*d, at + "/" + names[k], m.displacement_signal[k]);
   if (const Value* r = v.find("rotation")) {
     m.hold_rotation = r->is(JsonKind::string);
     if (r->is(JsonKind::object)) {
       m.rotation_axis = vector(*r->find("axis"));
-      m.angle = law(*r->find("angle"), at + "/rotation/angle");
+      m.angle = law_or_signal(*r->find("angle"), at + "/rotation/angle", m.angle_signal);
       if (!v.find("rate")->truth) warn_of_degrees(m.angle, at + "/rotation/angle");
     }
   }

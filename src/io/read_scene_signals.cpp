@@ -42,6 +42,33 @@ void Converter::signal_formula(const Value& v, const std::string& at, scene::Sig
   }
 }
 
+/// A table of two signals.
+void Converter::signal_surface(const Value& v, const std::string& at, scene::Signal& s) {
+  for (const Value& name : v.find("of")->items) s.inputs.push_back(name.text);
+  const auto numbers = [&v](const char* key) {
+    std::vector<double> list;
+    for (const Value& x : v.find(key)->items) list.push_back(x.number);
+    return list;
+  };
+  const std::vector<double> ys = numbers("y");
+  std::vector<double> values;
+  const Value& rows = *v.find("values");
+  for (std::size_t i = 0; i < rows.items.size(); ++i) {
+    for (const Value& x : rows.items[i].items) values.push_back(x.number);
+    if (rows.items[i].items.size() != ys.size())
+      fault(at + "/values/" + std::to_string(i), "a row needs one value per y: " + std::to_string(ys.size()));
+  }
+  const std::vector<double> xs = numbers("x");
+  if (rows.items.size() != xs.size())
+    return fault(at + "/values", "the table needs one row per x: " + std::to_string(xs.size()));
+  if (values.size() != xs.size() * ys.size()) return;  // told above
+  try {
+    s.surface = laws::Surface(xs, ys, std::move(values));
+  } catch (const laws::LawError& e) {
+    fault(at, e.what());
+  }
+}
+
 void Converter::signal(const Value& v, const std::string& at) {
   scene::Signal s;
   s.name = v.find("name")->text;
@@ -50,7 +77,11 @@ void Converter::signal(const Value& v, const std::string& at) {
   s.kind = scene::signal_kind_named(v.find("kind")->text.str()).value();  // the schema takes no other names
   s.joint = text_or(v, "joint");
   s.coordinate = text_or(v, "coordinate");
-  s.of = text_or(v, "of");
+  s.spring = text_or(v, "spring");
+  if (s.kind == SignalKind::surface)
+    signal_surface(v, at, s);
+  else
+    s.of = text_or(v, "of");
   s.start = number_or(v, "start", 0.0);
   if (const Value* where = v.find("at")) {
     s.at = attachment(*where, at + "/at");
@@ -63,7 +94,7 @@ void Converter::signal(const Value& v, const std::string& at) {
   add(scene.signals, "signals", std::move(s), at);
 }
 
-/// The law of an effort or a load, unless a signal is named in its place.
+/// The law of a drive, an effort or a load, unless a signal is named in its place.
 laws::Law Converter::law_or_signal(const Value& v, const std::string& at, std::string& signal) {
   if (const Value* name = v.is(JsonKind::object) ? v.find("signal") : nullptr) {
     signal = name->text;

@@ -147,9 +147,11 @@ laws::Law ValueConverter::law_table(const Value& v) const {
   std::vector<double> times, values;
   for (const Value& t : v.find("times")->items) times.push_back(t.number);
   for (const Value& x : v.find("values")->items) values.push_back(x.number);
-  return laws::make_table(
-      times, values,
-      v.find("interpolation")->text == "cubic" ? laws::Interpolation::cubic : laws::Interpolation::linear);
+  const std::string& way = v.find("interpolation")->text;
+  return laws::make_table(times, values,
+                          way == "cubic"      ? laws::Interpolation::cubic
+                          : way == "monotone" ? laws::Interpolation::monotone
+                                              : laws::Interpolation::linear);
 }
 
 namespace {

@@ -160,6 +160,9 @@ class Checker {
   }
 
   static std::string type_hint(const Rule& rule, const JsonValue& value) {
+    if (json_kind(rule.form) == JsonKind::number && value.find("signal") != nullptr)
+      return "this number is constant; signals may stand in drives and prescribed motions, efforts of joints (a strut "
+             "acts between two points) and factors of loads";
     if (json_kind(rule.form) == JsonKind::number && value.is(JsonKind::string))
       return "write numbers without quotes, in SI units";
     if (rule.form == Form::array && value.is(JsonKind::object)) return "put it in brackets: [ ... ]";
@@ -350,6 +353,11 @@ class Checker {
     if (JsonValue* kind = value.find_given("kind"); kind != nullptr && !kinds.empty())
       return fail(*kind, path.member("kind"), "has to be " + quoted_list(kinds),
                   kind->is(JsonKind::string) ? suggestion(kind->text, kinds) : "");
+    if (const JsonValue* name = value.find_given("signal"); name != nullptr && name->is(JsonKind::string))
+      return fail(
+          value, path, "has to be a law of time here: signals are known only together with the motion",
+          "they may stand in drives and prescribed motions, efforts of joints and factors of loads; in the place "
+          "of a law with parts, a signal of kind \"formula\"");
     std::string needed = kinds.empty() ? "" : "the key \"kind\" (" + quoted_list(kinds) + ")";
     if (!markers.empty())
       needed += (needed.empty() ? "" : ", or ") + std::string("one of the keys ") + quoted_list(markers);

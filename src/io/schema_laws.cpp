@@ -25,11 +25,13 @@ void add_law_rules(RuleTable& t) {
        made(object_of_kind({"harmonic"}, "offset + amplitude sin(omega t + phase).",
                            {need("amplitude", any, "Amplitude."), need("omega", any, "Angular frequency [rad/s]."),
                             may("phase", any, "Phase [rad].", "0"), may("offset", any, "Mean value.", "0")})),
-       made(object_of_kind({"table"}, "Through given points; constant outside.",
-                           {need("times", array_rule("", any, 1), "Increasing times [s]."),
-                            need("values", array_rule("", any, 1), "One value per time."),
-                            may("interpolation", word_rule("", {"linear", "cubic"}),
-                                "Straight lines, or a cubic spline.", "\"linear\"")})),
+       made(
+           object_of_kind({"table"}, "Through given points; constant outside.",
+                          {need("times", array_rule("", any, 1), "Increasing times [s]."),
+                           need("values", array_rule("", any, 1), "One value per time."),
+                           may("interpolation", word_rule("", {"linear", "cubic", "monotone"}),
+                               "Straight lines, a cubic spline, or cubics that rise and fall only where the values do.",
+                               "\"linear\"")})),
        made(object_of_kind(
            {"piecewise"}, "Different laws one after the other.",
            {need("pieces",

@@ -141,7 +141,7 @@ void add_joints(RuleTable& t) {
   const RuleRef drive =
       made(object_of("Prescribes a coordinate of the joint: the second relative to the first.",
                      {may("coordinate", coordinate, which),
-                      need("law", named_rule("law"), "Value [rad] or [m]; with rate [rad/s] or [m/s]."),
+                      need("law", named_rule("law_or_signal"), "Value [rad] or [m]; with rate [rad/s] or [m/s]."),
                       may("rate", boolean_rule(""),
                           "The law is the rate; it is integrated exactly from the initial value.", "false")}));
   t.named["joint"] = made(object_of(
@@ -205,12 +205,13 @@ void add_loads(RuleTable& t) {
       "", {word_rule("The orientation is held.", {"hold"}),
            made(object_of("Rotation about a fixed axis of the ground from the initial orientation.",
                           {need("axis", named_rule("vector"), "In the ground."),
-                           need("angle", named_rule("law"), "[rad]; counts turns. With rate: [rad/s].")}))});
+                           need("angle", named_rule("law_or_signal"), "[rad]; counts turns. With rate: [rad/s].")}))});
   t.named["motion"] = made(object_of(
       "Prescribed motion of a node or body from its initial pose. What is not given stays free.",
       {may("name", free_name, "Its name. Default: numbered."), need("at", named_rule("attachment"), "What moves."),
-       may("x", named_rule("law"), "Displacement along the ground's x [m]; with rate: velocity [m/s]."),
-       may("y", named_rule("law"), "The same along y."), may("z", named_rule("law"), "The same along z."),
+       may("x", named_rule("law_or_signal"), "Displacement along the ground's x [m]; with rate: velocity [m/s]."),
+       may("y", named_rule("law_or_signal"), "The same along y."),
+       may("z", named_rule("law_or_signal"), "The same along z."),
        may("rotation", turning, "Prescribed rotation. Default: free."),
        may("rate", boolean_rule(""), "The laws are rates, integrated exactly from the initial pose.", "false")}));
   t.named["initial_velocity"] = made(object_of(

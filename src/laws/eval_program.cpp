@@ -173,11 +173,16 @@ Jet<Interval> eval_switch(Op op, const Interval& sign, const Jet<Interval>& a, c
 template <class S>
 using Stack = std::array<Jet<S>, max_stack>;
 
-/// The variables of a formula, which are constant, but for one that grows with rate 1 if there is a `growing` one.
+/// The variables of a formula. They move if `motions` are given; else they are constant, but for one that grows with
+/// rate 1 if there is a `growing` one.
 struct Variables {
   const double* values = nullptr;
   std::size_t growing = static_cast<std::size_t>(-1);
-  Jet<double> operator[](std::size_t i) const { return {values[i], i == growing ? 1.0 : 0.0, 0.0}; }
+  const LawValue* motions = nullptr;
+  Jet<double> operator[](std::size_t i) const {
+    if (motions != nullptr) return {motions[i].value, motions[i].rate, motions[i].acceleration};
+    return {values[i], i == growing ? 1.0 : 0.0, 0.0};
+  }
 };
 
 /// One instruction on one stack. branch: of a switch, for numbers.
@@ -270,6 +275,14 @@ double eval_slope(const Program& program, std::span<const double> variables, std
   Stack<double> stack;
   run(program, 0, program.code.size(), number_jet<double>(0.0), stack, nullptr, nullptr, {variables.data(), by});
   return stack[0].rate;
+}
+
+Jet<double> eval_along(const Program& program, std::span<const LawValue> variables) {
+  Stack<double> stack;
+  Variables moving;
+  moving.motions = variables.data();
+  run(program, 0, program.code.size(), number_jet<double>(0.0), stack, nullptr, nullptr, moving);
+  return stack[0];
 }
 
 Jet<double> eval_program(const Program& program, double t, Side side) {

@@ -23,6 +23,9 @@ double eval_program(const Program& program, std::span<const double> variables);
 /// Its derivative by one of the variables.
 double eval_slope(const Program& program, std::span<const double> variables, std::size_t by);
 
+/// Value and derivatives in time of a formula of variables that move; a branch is the one that they enter.
+Jet<double> eval_along(const Program& program, std::span<const LawValue> variables);
+
 /// Argument that decides the branch of the switch at instruction `index`: zero where the branch changes.
 Jet<double> eval_switch_argument(const Program& program, std::size_t index, double t);
 

@@ -68,6 +68,12 @@ double Formula::operator()(std::span<const double> values, std::span<double> slo
   return eval_program(*program_, values);
 }
 
+LawValue Formula::along(std::span<const LawValue> values) const {
+  const TrapsMasked masked;
+  const Jet<double> f = eval_along(*program_, values);
+  return {f.value, f.rate, f.acceleration};
+}
+
 double eval_constant(const std::string& formula) { return Formula(formula, {})({}); }
 
 }  // namespace bough::laws

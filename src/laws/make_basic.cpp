@@ -1,5 +1,6 @@
 // Constant, ramps and tables: laws made of polynomial pieces.
 
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -65,6 +66,30 @@ std::vector<double> eval_spline_moments(const std::vector<double>& h, const std:
   return moments;
 }
 
+/// Slopes at the knots for cubics that are monotone where the data are (Fritsch, Carlson 1980): from the secants, 0 where
+/// two of them differ in sign or one is 0, and reduced where (m_i, m_{i+1}) / d_i leaves the circle of radius 3. Inner
+/// slopes start from the mean of the secants, those at the ends from the secants.
+std::vector<double> eval_monotone_slopes(const std::vector<double>& secants) {
+  const std::size_t last = secants.size();
+  std::vector<double> m(last + 1);
+  m[0] = secants[0];
+  m[last] = secants[last - 1];
+  for (std::size_t i = 1; i < last; ++i)
+    m[i] = secants[i - 1] * secants[i] > 0.0 ? 0.5 * (secants[i - 1] + secants[i]) : 0.0;
+  for (std::size_t i = 0; i < last; ++i) {
+    const double d = secants[i];
+    if (d == 0.0) {
+      m[i] = m[i + 1] = 0.0;
+      continue;
+    }
+    const double a = m[i] / d, b = m[i + 1] / d, radius = std::hypot(a, b);
+    if (radius <= 3.0) continue;
+    m[i] = 3.0 / radius * a * d;
+    m[i + 1] = 3.0 / radius * b * d;
+  }
+  return m;
+}
+
 void check_table(const std::vector<double>& times, const std::vector<double>& values) {
   if (times.empty()) throw LawError({}, 0, "a table needs at least one point");
   if (times.size() != values.size()) {
@@ -115,13 +140,16 @@ Law make_table(const std::vector<double>& times, const std::vector<double>& valu
     d[i] = (values[i + 1] - values[i]) / h[i];
   }
   const bool is_cubic = interpolation == Interpolation::cubic;
-  const std::vector<double> m = is_cubic ? eval_spline_moments(h, d) : std::vector<double>(last + 1, 0.0);
+  const bool is_monotone = interpolation == Interpolation::monotone;
+  const std::vector<double> m = is_cubic      ? eval_spline_moments(h, d)
+                                : is_monotone ? eval_monotone_slopes(d)
+                                              : std::vector<double>(last + 1, 0.0);
 
   std::vector<Knot> knots;
   std::vector<Piece> pieces{{times[0], 1.0, {values[0]}}};
   for (std::size_t i = 0; i <= last; ++i) {
     const bool is_inner = i > 0 && i < last;
-    knots.push_back({times[i], is_cubic && is_inner ? 3 : 1});
+    knots.push_back({times[i], !is_inner ? 1 : is_cubic ? 3 : is_monotone ? 2 : 1});
     if (i == last) break;
     const double h2 = h[i] * h[i];
     std::vector<double> c{values[i], values[i + 1] - values[i]};
@@ -129,6 +157,10 @@ Law make_table(const std::vector<double>& times, const std::vector<double>& valu
       c[1] -= h2 * (2.0 * m[i] + m[i + 1]) / 6.0;
       c.push_back(h2 * m[i] / 2.0);
       c.push_back(h2 * (m[i + 1] - m[i]) / 6.0);
+    }
+    if (is_monotone) {  // the cubic of Hermite
+      const double rise = c[1], from = h[i] * m[i], to = h[i] * m[i + 1];
+      c = {values[i], from, 3.0 * rise - 2.0 * from - to, from + to - 2.0 * rise};
     }
     pieces.push_back({times[i], h[i], std::move(c)});
   }

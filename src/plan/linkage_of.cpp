@@ -133,11 +133,14 @@ void SceneLinkage::add_joint(const scene::Joint& j) {
 void SceneLinkage::add_motion(const scene::PrescribedMotion& m) {
   const auto H = poses_.of(m.at);
   if (!H) return;
-  const auto holds = [this](const laws::Law& law) { return choice_.drives_hold || law.is_constant(); };
+  const auto holds = [this](const laws::Law& law, const std::string& signal) {
+    return choice_.drives_hold || (signal.empty() && law.is_constant());
+  };
   std::vector<Twist> rows;
   for (int k = 0; k < 3; ++k)
-    if (m.displacement[k] && holds(*m.displacement[k])) rows.push_back(linkage.along(Vec3d::unit(k), H->x));
-  if (m.hold_rotation || (m.rotation_axis && holds(m.angle)))
+    if (m.displacement[k] && holds(*m.displacement[k], m.displacement_signal[k]))
+      rows.push_back(linkage.along(Vec3d::unit(k), H->x));
+  if (m.hold_rotation || (m.rotation_axis && holds(m.angle, m.angle_signal)))
     for (int k = 0; k < 3; ++k) rows.push_back(Linkage::about(Vec3d::unit(k)));
   hold(m.at.to, std::move(rows));
 }

@@ -95,7 +95,9 @@ int Builder::add_joint(elements::Joint& j, const std::string& name, const std::s
 }
 
 /// A drive that prescribes a rate gets the integral of its law from the coordinate's initial value.
-int Builder::add_drive(const laws::Law& law, bool is_rate, double initial, const std::string& user) {
+int Builder::add_drive(const laws::Law& law, const std::string& signal, bool is_rate, double initial,
+                       const std::string& user) {
+  if (!signal.empty()) return law_of_signal.at(signal);
   if (!is_rate) return add_law(law, user);
   return add_law(laws::make_sum({law.integral(0.0), laws::make_constant(initial)}), user);
 }
@@ -113,7 +115,7 @@ void Builder::add_joints() {
                                                                   : scene::pitch_per_radian(given.pitch);
     for (const scene::JointDrive& d : given.drives) {
       const scene::JointRow coordinate{type.coordinate(d.coordinate)->kind};
-      const int law = add_drive(d.law, d.is_rate, scene::eval_row(coordinate, 0.0, H).value, given.name);
+      const int law = add_drive(d.law, d.signal, d.is_rate, scene::eval_row(coordinate, 0.0, H).value, given.name);
       const auto end = j.rows + type.rows.size();
       const auto held = std::find_if(j.rows, end, [&](const auto& row) { return row.kind == coordinate.kind; });
       if (held != end && motion::traits_of(held->kind).is_between_points) {
@@ -149,7 +151,8 @@ void Builder::add_motions() {
     shift.ports[1] = moving;
     for (int i = 0; i < 3; ++i)
       if (m.displacement[i])
-        add_row(shift, elements::RowKind::along, i, 0, add_drive(*m.displacement[i], m.is_rate, 0.0, m.name));
+        add_row(shift, elements::RowKind::along, i, 0,
+                add_drive(*m.displacement[i], m.displacement_signal[i], m.is_rate, 0.0, m.name));
     if (shift.num_rows > 0) add_joint(shift, m.name, "prescribed motion");
     if (!m.rotation_axis && !m.hold_rotation) continue;
     elements::Joint turn;  // both frames along the axis of rotation, equal at the start
@@ -163,7 +166,7 @@ void Builder::add_motions() {
     turn.ports[1].has_offset = true;
     if (m.rotation_axis) {
       for (int i = 0; i < 2; ++i) add_row(turn, elements::RowKind::across, i, 2);
-      add_row(turn, elements::RowKind::angle, 2, 0, add_drive(m.angle, m.is_rate, 0.0, m.name));
+      add_row(turn, elements::RowKind::angle, 2, 0, add_drive(m.angle, m.angle_signal, m.is_rate, 0.0, m.name));
     } else {
       for (int i = 0; i < 3; ++i) add_row(turn, elements::RowKind::across, i, (i + 1) % 3);
     }
@@ -379,11 +382,19 @@ void Builder::make_graph() {
     s.element = g.num_elements();
     for (const Port& p : s.reading.ports) {
       const bool moves = p.node != elements::ground && plan.block_of_node[static_cast<std::size_t>(p.node)] >= 0;
-      if (s.reads_motion() && moves && std::find(s.nodes.begin(), s.nodes.end(), p.node) == s.nodes.end())
+      if (s.reads_nodes() && moves && std::find(s.nodes.begin(), s.nodes.end(), p.node) == s.nodes.end())
         s.nodes.push_back(p.node);
     }
     for (const int node : s.nodes) g.element_blocks.push_back(plan.block_of_node[static_cast<std::size_t>(node)]);
     for (const int other : s.signals) g.element_blocks.push_back(plan.signals[static_cast<std::size_t>(other)].block);
+    if (s.row >= 0) {
+      const JointPlan& joint = plan.joints[static_cast<std::size_t>(s.joint)];
+      const auto row = std::find(joint.rows.begin(), joint.rows.end(), s.row);
+      if (joint.block >= 0 && row != joint.rows.end()) {
+        s.row_in_block = static_cast<int>(row - joint.rows.begin());
+        g.element_blocks.push_back(joint.block);
+      }
+    }
     g.element_blocks.push_back(s.block);
     g.element_begin.push_back(static_cast<std::int64_t>(g.element_blocks.size()));
   }

@@ -71,7 +71,7 @@ struct Builder {
   std::vector<SpaceLoad> space_loads(const motion::Vec3<double>& force, const motion::Vec3<double>& moment,
                                      const std::string& frame, bool follows, int law, const std::string& user);
   motion::Vec6<double> frame_velocity(const std::string& frame, const motion::Vec3<double>& at) const;
-  int add_drive(const laws::Law& law, bool is_rate, double initial, const std::string& user);
+  int add_drive(const laws::Law& law, const std::string& signal, bool is_rate, double initial, const std::string& user);
   int add_node(const std::string& name, const motion::Frame<double>& pose);
   int add_joint(elements::Joint& joint, const std::string& name, const std::string& what);
   elements::Port port_at(const std::string& to, const motion::Frame<double>& offset) const;
@@ -81,6 +81,12 @@ struct Builder {
   /// Places for the values of signals among those of laws; then the signals themselves.
   void add_signal_laws();
   void add_signals();
+  void read_effort(const scene::Joint& joint, const elements::Joint& made, motion::RowKind coordinate, SignalPlan& p);
+  /// Whether a place among the values of laws is that of a signal that is an unknown.
+  bool is_signal(int law) const {
+    const auto i = static_cast<std::size_t>(law);
+    return i < plan.signal_of_law.size() && plan.signal_of_law[i] >= 0;
+  }
   void add_frames();
   void add_bodies();
   void add_beams();

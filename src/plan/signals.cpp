@@ -26,6 +26,13 @@ SignalRule rule_of(scene::SignalKind kind) {
       return SignalRule::function;
     case Kind::state:
       return SignalRule::state;
+    case Kind::joint_effort:
+    case Kind::spring_tension:
+      return SignalRule::effort;
+    case Kind::surface:
+      return SignalRule::surface;
+    case Kind::input:
+      return SignalRule::input;
     case Kind::time:
     case Kind::formula:
       break;
@@ -36,7 +43,7 @@ SignalRule rule_of(scene::SignalKind kind) {
 }  // namespace
 
 void Builder::add_signal_laws() {
-  for (const std::size_t i : scene::order_of_signals(scene.signals)) {
+  for (const std::size_t i : scene::order_of_signals(scene)) {
     const scene::Signal& s = scene.signals[i];
     law_of_signal[s.name] = add_law(s.law, "signal " + s.name);
     if (s.kind == scene::SignalKind::time) continue;
@@ -48,8 +55,34 @@ void Builder::add_signal_laws() {
     p.start = s.start;
     p.function = s.law;
     p.formula = s.formula;
+    p.surface = s.surface;
     plan.signals.push_back(std::move(p));
   }
+}
+
+/// All that acts along a coordinate of a joint: its springs and dampers are one, laws and the multiplier are added.
+void Builder::read_effort(const scene::Joint& joint, const elements::Joint& made, motion::RowKind coordinate,
+                          SignalPlan& p) {
+  p.joint_name = joint.name;
+  p.reading.ports[0] = made.ports[0];
+  p.reading.ports[1] = made.ports[1];
+  elements::Effort& read = p.reading.efforts[0];
+  read.coordinate = coordinate;
+  double moment = 0.0;
+  for (int k = 0; k < made.num_efforts; ++k) {
+    const elements::Effort& e = made.efforts[k];
+    if (e.coordinate != coordinate) continue;
+    read.stiffness -= e.stiffness;
+    read.damping -= e.damping;
+    moment -= e.stiffness * e.rest;
+    if (e.law >= 0) p.inputs.push_back(e.law);
+  }
+  if (read.stiffness != 0.0) read.rest = moment / read.stiffness;
+  for (int k = 0; k < made.num_rows; ++k) {
+    const elements::ConstraintRow& row = made.rows[k];
+    if (row.kind == coordinate && (row.law >= 0 || motion::traits_of(row.kind).is_between_points)) p.row = k;
+  }
+  plan.signals_read_multipliers |= p.row >= 0;
 }
 
 void Builder::add_signals() {
@@ -61,6 +94,26 @@ void Builder::add_signals() {
     if (!p.reads_motion()) continue;
     elements::Effort& read = p.reading.efforts[0];
     p.reading.num_efforts = 1;
+    if (s.kind == scene::SignalKind::joint_effort) {
+      const auto joint = std::find_if(scene.joints.begin(), scene.joints.end(),
+                                      [&](const scene::Joint& j) { return j.name == s.joint; });
+      const auto index = static_cast<std::size_t>(joint - scene.joints.begin());  // these come first in Plan::joints
+      read_effort(*joint,
+                  array_of<elements::Joint>(plan.elements)[static_cast<std::size_t>(plan.joints[index].element)],
+                  scene::coordinate_of(s, scene::type_of(joint->kind))->kind, p);
+      continue;
+    }
+    if (s.kind == scene::SignalKind::spring_tension) {
+      const auto spring = std::find_if(scene.springs.begin(), scene.springs.end(),
+                                       [&](const scene::Spring& e) { return e.name == s.spring; });
+      p.reading.ports[0] = port_at(spring->first);
+      p.reading.ports[1] = port_at(spring->second);
+      read.coordinate = motion::RowKind::distance;
+      read.stiffness = spring->stiffness;
+      read.rest = spring->rest_length;
+      read.damping = spring->damping;
+      continue;
+    }
     (p.rule == SignalRule::rate ? read.damping : read.stiffness) = 1.0;
     read.coordinate = motion::RowKind::along;
     if (scene::reads_joint(s.kind)) {
@@ -99,6 +152,8 @@ void Builder::list_signals_of_elements() {
   for (SignalPlan& p : plan.signals)
     for (std::size_t j = 0; j < plan.joints.size(); ++j)
       if (!p.joint_name.empty() && plan.joints[j].name == p.joint_name) p.joint = static_cast<int>(j);
+  for (const elements::Joint& e : array_of<elements::Joint>(plan.elements))
+    for (int k = 0; k < e.num_rows; ++k) plan.signals_drive |= e.rows[k].law >= 0 && is_signal(e.rows[k].law);
   plan.signals_of_element.resize(plan.directory.size());
   for (std::size_t id = 0; id < plan.directory.size(); ++id)
     with_element(plan.elements, plan.directory[id], [&](const auto& e) {

@@ -33,6 +33,8 @@ class Analysis {
   /// Takes one accepted step, after as many rejected attempts as it needs. Not to be called once is_done().
   [[nodiscard]] virtual bool take_step() = 0;
   virtual bool is_done() const = 0;
+  /// To be called after an input of the present state was changed: the next step begins as after a jump of a law.
+  virtual void jump() {}
   /// To be called after the state was restored to the moment at which this copy was made. Recomputes what the system
   /// holds for the next step.
   virtual void come_back();

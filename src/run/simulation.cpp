@@ -175,6 +175,23 @@ double Simulation::value(std::string_view column) {
   return values()[static_cast<std::size_t>(found - columns.begin())];
 }
 
+std::string Simulation::set_input(std::string_view signal, double value) {
+  Impl& p = *impl_;
+  const std::string name(signal);
+  const std::vector<plan::SignalPlan>& signals = p.plan.signals;
+  const auto input = std::find_if(signals.begin(), signals.end(), [&](const plan::SignalPlan& s) {
+    return s.name == name && s.rule == plan::SignalRule::input;
+  });
+  if (input == signals.end()) return "no signal of kind \"input\" has the name '" + name + "'";
+  if (!std::isfinite(value)) return "the input '" + name + "' has to be finite";
+  if (has_ended()) return "the simulation has ended, so that the input '" + name + "' has no effect";
+  const auto i = static_cast<std::size_t>(input - signals.begin());
+  if (value == p.state.signals.given[i]) return {};
+  p.state.signals.given[i] = p.state.signals.value[i] = value;
+  p.analysis->jump();
+  return {};
+}
+
 std::shared_ptr<const Simulation::Moment> Simulation::save() const { return std::make_shared<const Moment>(*impl_); }
 
 void Simulation::restore(const Moment& moment) {

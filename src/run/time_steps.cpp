@@ -75,8 +75,21 @@ bool TimeSteps::begin_next_stretch() {
   return is_begun;
 }
 
+bool TimeSteps::begin_rest_of_stretch() {
+  recording_.end_stretch(state_);
+  begin_ = state_.time;
+  const bool is_begun = begin_stretch();
+  has_jump_ = false;
+  return is_begun;
+}
+
 bool TimeSteps::take_step() {
-  if (is_stretch_done() && !begin_next_stretch()) return false;
+  if (is_stretch_done()) {
+    has_jump_ = false;  // a new stretch begins with the inputs that it finds
+    if (!begin_next_stretch()) return false;
+  } else if (has_jump_ && !begin_rest_of_stretch()) {
+    return false;
+  }
   const bool goes_on = step_within_stretch();
   if (!goes_on || is_stretch_done()) recording_.end_stretch(state_);
   return goes_on;

@@ -20,6 +20,7 @@ class TimeSteps : public Analysis {
  public:
   bool begin() override;
   bool take_step() override;
+  void jump() override { has_jump_ = is_begun_; }
   bool is_done() const override { return is_begun_ && is_stretch_done() && !(end_ < scene_.analysis.end_time); }
   void sum_up() override;
   void add_doubts() override;
@@ -62,12 +63,15 @@ class TimeSteps : public Analysis {
   bool begin_in_equilibrium();
   void note_unstable_start();
   bool begin_next_stretch();
-  bool is_first() const { return begin_ == 0.0; }
+  /// Begins the rest of the present stretch anew.
+  bool begin_rest_of_stretch();
+  bool is_first() const { return begin_ == 0.0 && !has_jump_; }
   void choose_bdf_order(double step_size);
   void note_moved_start(const step::StartReport& consistent);
 
   BreakWalk breaks_;
   bool is_begun_ = false;
+  bool has_jump_ = false;                   ///< an input was changed at the present time
   step::State tried_;                       ///< start of the first attempt of a failed step
   std::optional<ReactionWatch> reactions_;  ///< if checks are made and sensors show reactions
   std::vector<double> values_before_, values_now_, values_displaced_;  ///< of motion sensors when an error is measured

@@ -89,7 +89,7 @@ void check_drives(ProblemList& list, std::size_t i, const Frame* H) {
       list.add("joints", i, key, drive.coordinate,
                "the " + *driven.begin() + " and the " + *driven.rbegin() + " of a " + to_string(j.kind) +
                    " depend on each other: drive one");
-    if (H == nullptr || coordinate == nullptr || drive.is_rate || !list.is_dynamic) continue;
+    if (H == nullptr || coordinate == nullptr || drive.is_rate || !drive.signal.empty() || !list.is_dynamic) continue;
     const double now = eval_row({coordinate->kind}, j.pitch, *H).value;
     const double jump = drive.law.at(0.0).value - now;
     const double off = coordinate->is_length() ? std::abs(jump) / list.size
@@ -252,7 +252,7 @@ void check_motion(ProblemList& list, std::size_t i, std::set<std::string>& taken
       any = true;
       take(names[k]);
       list.check_law("motions", i, names[k], *m.displacement[k], true);
-      jump(names[k], *m.displacement[k]);
+      if (m.displacement_signal[k].empty()) jump(names[k], *m.displacement[k]);
     }
   if (m.rotation_axis || m.hold_rotation) {
     any = true;
@@ -262,7 +262,7 @@ void check_motion(ProblemList& list, std::size_t i, std::set<std::string>& taken
     if (is_zero(*m.rotation_axis))
       list.add("motions", i, "rotation/axis", "0, 0, 0", "an axis has a length other than 0");
     list.check_law("motions", i, "rotation/angle", m.angle, true);
-    jump("rotation/angle", m.angle);
+    if (m.angle_signal.empty()) jump("rotation/angle", m.angle);
   }
   if (!any) list.add("motions", i, "", "", "prescribes nothing", "give x, y, z or rotation");
 }

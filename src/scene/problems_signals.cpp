@@ -1,5 +1,7 @@
 /// Checks of signals, and of what they drive.
 #include <algorithm>
+#include <cmath>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "bough/scene/sensor_kinds.hpp"
@@ -40,21 +42,26 @@ void check_joint_of(ProblemList& list, std::size_t i, const Signal& s) {
   if (coordinate_of(s, type) == nullptr)
     list.add("signals", i, "joint", s.joint,
              "a " + type.name + " joint has no such coordinate that a signal could read");
-  else if (s.kind == SignalKind::joint_rate && s.coordinate.empty() && type.coordinates.size() > 1)
-    list.add("signals", i, "joint", s.joint, "a " + type.name + " joint has two rates: name one of them as coordinate");
+  else if ((s.kind == SignalKind::joint_rate || s.kind == SignalKind::joint_effort) && s.coordinate.empty() &&
+           type.coordinates.size() > 1)
+    list.add("signals", i, "joint", s.joint,
+             "a " + type.name + " joint has two " + (s.kind == SignalKind::joint_rate ? "rates" : "efforts") +
+                 ": name one of them as coordinate");
 }
 
 /// Signals that wait for each other without a state between them have no value that follows from the motion alone.
 void check_circles(ProblemList& list) {
   const std::vector<Signal>& signals = list.scene.signals;
-  const std::vector<std::size_t> order = order_of_signals(signals);
+  const std::vector<std::size_t> order = order_of_signals(list.scene);
   if (order.size() == signals.size()) return;
   std::vector<bool> is_known(signals.size(), false);
   for (const std::size_t i : order) is_known[i] = true;
   const auto is_waited_for = [&](std::size_t i) {
     for (std::size_t k = 0; k < signals.size(); ++k)
-      if (!is_known[k] && std::count(signals[k].inputs.begin(), signals[k].inputs.end(), signals[i].name) > 0)
-        return true;
+      if (!is_known[k]) {
+        const std::vector<std::string> inputs = present_inputs(list.scene, signals[k]);
+        if (std::count(inputs.begin(), inputs.end(), signals[i].name) > 0) return true;
+      }
     return false;
   };
   for (bool changes = true; changes;) {  // what follows from the circle without being part of it
@@ -77,11 +84,102 @@ bool any_frame_moves(const Scene& scene) {
   return std::any_of(scene.frames.begin(), scene.frames.end(), [](const FrameDef& f) { return f.motion.has_value(); });
 }
 
+/// What signals may drive, by what they follow from. A row needs the rate and the acceleration of its law before those
+/// of the motion are known; an effort needs its value before the forces of constraints are.
+class SignalLevels {
+ public:
+  explicit SignalLevels(ProblemList& list) : list_(list), levels_(levels_of_signals(list.scene)) {
+    for (std::size_t i = 0; i < list.scene.signals.size(); ++i) index_of_.emplace(list.scene.signals[i].name, i);
+  }
+  void check_row(const char* section, std::size_t i, const std::string& key, const std::string& name) {
+    const int level = level_of(name);
+    if (level < 0) return;
+    const char* const what[] = {"where parts are", "how fast they move", "forces of constraints"};
+    const std::string states = level == 0 ? "a state that follows it, x' = (" + name + " - x)/lag"
+                                          : std::to_string(level + 1) + " states in a row that follow it";
+    list_.add(section, i, key, name,
+              std::string("this signal follows from ") + what[level] +
+                  " at the same instant, so that it has no acceleration that a drive could prescribe",
+              "drive by " + states + "; or let an effort follow it");
+  }
+  void check_effort(const char* section, std::size_t i, const std::string& key, const std::string& name) {
+    if (level_of(name) < 2) return;
+    list_.add(section, i, key, name,
+              "this signal follows from the force of a drive or of a rod, which would follow from itself",
+              "let a state follow it, x' = (" + name + " - x)/lag, as a sensor does");
+  }
+
+ private:
+  int level_of(const std::string& name) const {
+    const auto known = index_of_.find(name);
+    return known == index_of_.end() ? -1 : levels_[known->second];
+  }
+  ProblemList& list_;
+  std::vector<int> levels_;
+  std::unordered_map<std::string, std::size_t> index_of_;
+};
+
+/// A row that starts away from the state that drives it is closed at the start, which moves parts.
+void check_start(ProblemList& list, const char* section, std::size_t i, const std::string& key, const std::string& name,
+                 double stands, double scale, bool turns) {
+  for (const Signal& s : list.scene.signals) {
+    if (s.name != name || s.kind != SignalKind::state || !list.is_dynamic ||
+        list.scene.analysis.start == StartKind::equilibrium)
+      continue;
+    const double jump = s.start - stands;
+    if (std::abs(turns ? std::remainder(jump, 2.0 * 3.14159265358979323846) : jump / scale) > 1e-9)
+      list.warn(section, i, key, name,
+                "the state starts at " + text_of(s.start) + ", and what it drives at " + text_of(stands),
+                "let it start there");
+  }
+}
+
+/// Drives of joints and prescribed motions.
+void check_driven_rows(ProblemList& list, SignalNames& names, SignalLevels& levels) {
+  const Scene& scene = list.scene;
+  const auto check = [&](const char* section, std::size_t i, const std::string& key, const std::string& name,
+                         bool is_rate) {
+    if (name.empty()) return;
+    names.check(section, i, key + "/signal", name);
+    if (is_rate)
+      list.add(section, i, key + "/signal", name, "a signal is the coordinate itself, not its rate",
+               "drive by a state x with x' = " + name + ", without \"rate\"");
+    else
+      levels.check_row(section, i, key + "/signal", name);
+  };
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    const Joint& joint = scene.joints[i];
+    for (std::size_t k = 0; k < joint.drives.size(); ++k) {
+      const JointDrive& drive = joint.drives[k];
+      const std::string key = "drives/" + std::to_string(k) + "/law";
+      check("joints", i, key, drive.signal, drive.is_rate);
+      const JointCoordinate* coordinate = type_of(joint.kind).coordinate(drive.coordinate);
+      const auto a = list.poses.of(joint.first), b = list.poses.of(joint.second);
+      if (!drive.signal.empty() && a && b && coordinate != nullptr)
+        check_start(list, "joints", i, key + "/signal", drive.signal,
+                    eval_row({coordinate->kind}, joint.pitch, motion::relative(*a, *b)).value, list.size,
+                    !coordinate->is_length());
+    }
+  }
+  const char* const axes[3] = {"x", "y", "z"};
+  for (std::size_t i = 0; i < scene.motions.size(); ++i) {
+    const PrescribedMotion& m = scene.motions[i];
+    for (int k = 0; k < 3; ++k) {
+      check("motions", i, axes[k], m.displacement_signal[k], m.is_rate);
+      check_start(list, "motions", i, std::string(axes[k]) + "/signal", m.displacement_signal[k], 0.0, list.size,
+                  false);
+    }
+    check("motions", i, "rotation/angle", m.angle_signal, m.is_rate);
+    check_start(list, "motions", i, "rotation/angle/signal", m.angle_signal, 0.0, 1.0, true);
+  }
+}
+
 }  // namespace
 
 void check_signals(ProblemList& list) {
   const Scene& scene = list.scene;
   SignalNames names(list);
+  SignalLevels levels(list);
   for (std::size_t i = 0; i < scene.signals.size(); ++i) {
     const Signal& s = scene.signals[i];
     if (!is_signal_name(s.name))
@@ -95,17 +193,30 @@ void check_signals(ProblemList& list) {
         list.add("signals", i, "frame", s.frame, "a point does not move as seen from its own part");
     }
     if (s.kind == SignalKind::function) names.check("signals", i, "of", s.of);
+    if (s.kind == SignalKind::surface)
+      for (std::size_t k = 0; k < s.inputs.size(); ++k)
+        names.check("signals", i, "of/" + std::to_string(k), s.inputs[k]);
+    if (s.kind == SignalKind::spring_tension) {
+      std::vector<std::string> springs;
+      for (const Spring& spring : scene.springs) springs.push_back(spring.name);
+      list.check_reference("signals", i, "spring", s.spring, springs, "spring");
+    }
     if (s.kind == SignalKind::time) list.check_law("signals", i, "law", s.law, false);
   }
   for (std::size_t i = 0; i < scene.sensors.size(); ++i)
     if (type_of(scene.sensors[i].kind).of == SensorOf::signal)
       names.check("sensors", i, "signal", scene.sensors[i].signal);
   for (std::size_t i = 0; i < scene.joints.size(); ++i)
-    for (std::size_t k = 0; k < scene.joints[i].forces.size(); ++k)
-      names.check("joints", i, "forces/" + std::to_string(k) + "/effort/signal", scene.joints[i].forces[k].signal);
+    for (std::size_t k = 0; k < scene.joints[i].forces.size(); ++k) {
+      const std::string key = "forces/" + std::to_string(k) + "/effort/signal";
+      names.check("joints", i, key, scene.joints[i].forces[k].signal);
+      levels.check_effort("joints", i, key, scene.joints[i].forces[k].signal);
+    }
+  check_driven_rows(list, names, levels);
   const auto check_loads_of = [&](const char* section, const auto& loads) {
     for (std::size_t i = 0; i < loads.size(); ++i) {
       names.check(section, i, "law/signal", loads[i].signal);
+      levels.check_effort(section, i, "law/signal", loads[i].signal);
       if (!loads[i].signal.empty() && !loads[i].frame.empty() && any_frame_moves(scene))
         list.add(section, i, "frame", loads[i].frame,
                  "a load that a signal drives does not turn with a frame that moves",

@@ -28,15 +28,26 @@ Violations largest(const Violations& a, const Violations& b) {
 }  // namespace
 
 Constraints::Constraints(const plan::Plan& plan, const Instant& instant, const tree::Walker& walker)
-    : plan_(plan), instant_(instant), walker_(walker) {
+    : plan_(plan), instant_(instant), walker_(walker), signals_(plan) {
   series_.resize(static_cast<std::size_t>(plan.num_multipliers));
+  if (!plan.signals_drive) return;
+  laws_.resize(plan.laws.size());
+  law_rates_.resize(plan.laws.size());
+}
+
+const Instant::Series& Constraints::laws_of(const State& state, const elements::Field& field, double step_size) const {
+  const Instant::Series& laws = instant_.series(step_size);
+  if (!plan_.signals_drive) return laws;
+  laws_ = laws;
+  signals_.complete(state, field, step_size, laws_);
+  return laws_;
 }
 
 void Constraints::series(const State& state, const motion::Vec6<double>* jerk, double step_size,
                          std::vector<lanes::Taylor<double, 3>>& out) const {
   elements::Field f = instant_.field(state);
   if (step_size > 0.0 && !plan_.frames.empty()) f.carriers = instant_.frame_series(step_size).in_ground.data();
-  const Instant::Series& laws = instant_.series(step_size);
+  const Instant::Series& laws = laws_of(state, f, step_size);
   out.resize(static_cast<std::size_t>(plan_.num_multipliers));
   for (std::size_t j = 0; j < plan_.joints.size(); ++j)
     elements::evaluate_constraint_series(element_of(plan_, j), f, jerk, laws.data(), state.turns[j],
@@ -46,7 +57,14 @@ void Constraints::series(const State& state, const motion::Vec6<double>* jerk, d
 Violations Constraints::violations(const State& state) const {
   using T = lanes::Taylor<double, 1>;
   const elements::Field f = instant_.field(state);
-  const std::vector<T>& laws = instant_.rate_series();
+  if (plan_.signals_drive) {
+    const Instant::Series& series = laws_of(state, f, 0.0);
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      law_rates_[i].c[0] = series[i].c[0];
+      law_rates_[i].c[1] = series[i].c[1];
+    }
+  }
+  const std::vector<T>& laws = plan_.signals_drive ? law_rates_ : instant_.rate_series();
   const auto count = static_cast<std::int64_t>(plan_.joints.size());
   parts_.assign(static_cast<std::size_t>((count + joint_grain - 1) / joint_grain), {});
   auto by_joint = [&](std::int64_t begin, std::int64_t end) {

@@ -115,6 +115,7 @@ void ElementEvaluation::evaluate_alone(std::size_t id, const State& state, const
           std::fill(column, column + n, 0.0);
         else
           elements::evaluate_law_slope(e, f, multipliers, turns, signal.law, column);
+        if (f.slopes.holds_drives) std::fill(column + n - elements::num_multipliers(e), column + n, 0.0);
       });
       write_matrix(
           trimmed_, id, n + num_signals, [&](int i) { return extended[static_cast<std::size_t>(i)]; }, view);

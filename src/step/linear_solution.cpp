@@ -46,7 +46,7 @@ void LinearSolution::begin_matrices(bool are_symmetric) {
 
 bool LinearSolution::has_factor(const elements::Slopes& s) const {
   return is_factored_ && s.velocity == factored_.velocity && s.acceleration == factored_.acceleration &&
-         s.rate == factored_.rate && s.mass_only == factored_.mass_only;
+         s.rate == factored_.rate && s.mass_only == factored_.mass_only && s.holds_drives == factored_.holds_drives;
 }
 
 void LinearSolution::note_service(int solutions) {

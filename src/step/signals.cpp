@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "bough/elements/reading.hpp"
 
@@ -20,7 +21,7 @@ Signals::Signals(const plan::Plan& plan, const Instant& instant, const UnknownPl
   std::size_t most = most_of_ports;
   for (const plan::SignalPlan& s : plan.signals) most = std::max(most, s.inputs.size());
   for (std::vector<double>* scratch : {&inputs_, &slopes_}) scratch->assign(most, 0.0);
-  row_.assign(most + 1, 0.0);
+  row_.assign(most_of_ports + most + elements::max_rows + 1, 0.0);
 }
 
 /// The angle at the last accepted step of the joint that a signal reads.
@@ -33,9 +34,9 @@ double Signals::turns_of(const plan::SignalPlan& signal, const State& state) con
 double Signals::size_of(const plan::SignalPlan& s, double value, const elements::Slopes& slopes) const {
   if (s.is_state()) return std::abs(slopes.rate * value);
   if (!s.reads_motion()) return 0.0;
-  const bool is_length = motion::traits_of(s.reading.efforts[0].coordinate).is_length;
-  const double of_pose = is_length ? plan_.length_scale : 1.0;
-  return s.rule == plan::SignalRule::rate ? slopes.velocity * of_pose : of_pose;
+  const elements::Effort& read = s.reading.efforts[0];
+  const double of_pose = motion::traits_of(read.coordinate).is_length ? plan_.length_scale : 1.0;
+  return (std::abs(read.stiffness) + std::abs(read.damping) * slopes.velocity) * of_pose;
 }
 
 template <class G>
@@ -44,9 +45,22 @@ Signals::Value Signals::eval(std::size_t signal, const State& state, const eleme
   if (s.reads_motion()) {
     const double f =
         elements::eval_reading(plan::reading_on<G>(plan_, signal), field, turns_of(s, state), slopes_.data());
-    return {f, std::abs(f)};
+    Value value{f, std::abs(f)};
+    const auto add = [&value](double part) {
+      value.f += part;
+      value.magnitude += std::abs(part);
+    };
+    for (const int law : s.inputs) add(field.around.laws[at(law)]);
+    if (s.row >= 0) add(-state.multipliers[at(plan_.joints[at(s.joint)].multiplier_begin + s.row)]);
+    return value;
   }
+  if (s.rule == plan::SignalRule::input) return {state.signals.given[signal], std::abs(state.signals.given[signal])};
   const double* laws = field.around.laws;
+  if (s.rule == plan::SignalRule::surface) {
+    const double x = laws[at(s.inputs[0])], y = laws[at(s.inputs[1])];
+    const double f = s.surface(x, y, std::span<double, 2>(slopes_.data(), 2));
+    return {f, std::abs(f) + std::abs(slopes_[0] * x) + std::abs(slopes_[1] * y)};
+  }
   if (s.rule == plan::SignalRule::function) {
     const double input = laws[at(s.inputs.front())];
     const laws::LawValue v = s.function.at(input);
@@ -61,7 +75,8 @@ Signals::Value Signals::eval(std::size_t signal, const State& state, const eleme
   return value;
 }
 
-/// The last row of the matrix of an equation is (-df/d(nodes), -df/d(other signals), own); all else is zero.
+/// The last row of the matrix of an equation is (-df/d(nodes), -df/d(other signals), -df/d(multipliers of its joint),
+/// own); all else is zero.
 void Signals::put_matrix(std::size_t signal, const elements::Slopes& slopes) {
   const plan::SignalPlan& s = plan_.signals[signal];
   const auto dof = static_cast<std::size_t>(plan_.unknowns.count);
@@ -70,27 +85,30 @@ void Signals::put_matrix(std::size_t signal, const elements::Slopes& slopes) {
   };
   std::size_t others = 0;
   for (const int node : s.nodes) others += count_of(node);
-  const std::size_t n = others + s.signals.size() + 1;
+  const std::size_t multipliers = others + s.signals.size();
+  const std::size_t n = multipliers + (s.row_in_block < 0 ? 0 : plan_.joints[at(s.joint)].rows.size()) + 1;
   std::fill(row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
   double& own = row_[n - 1] = 1.0;
   if (!slopes.mass_only) {
     if (s.is_state()) own = slopes.rate;
-    if (s.reads_motion())
+    if (s.row_in_block >= 0) row_[multipliers + at(s.row_in_block)] = 1.0;
+    if (s.reads_motion()) {
       for (std::size_t port = 0; port < 2; ++port) {
         const auto node = std::find(s.nodes.begin(), s.nodes.end(), s.reading.ports[port].node);
         if (node == s.nodes.end()) continue;
         const std::size_t begin = node == s.nodes.begin() ? 0 : count_of(s.nodes.front());  // there are two at most
         for (std::size_t i = 0; i < count_of(*node); ++i) row_[begin + i] -= slopes_[dof * port + i];
       }
-    else
-      for (std::size_t k = 0; k < s.inputs.size(); ++k) {
-        const int input = plan_.signal_of_law[at(s.inputs[k])];
-        const auto other = std::find(s.signals.begin(), s.signals.end(), input);
-        if (s.inputs[k] == s.law)
-          own -= slopes_[k];
-        else if (other != s.signals.end())
-          row_[others + static_cast<std::size_t>(other - s.signals.begin())] -= slopes_[k];
-      }
+      std::fill(slopes_.begin(), slopes_.end(), 1.0);  // by the laws of an effort
+    }
+    for (std::size_t k = 0; k < s.inputs.size(); ++k) {
+      const int input = plan_.signal_of_law[at(s.inputs[k])];
+      const auto other = std::find(s.signals.begin(), s.signals.end(), input);
+      if (s.inputs[k] == s.law)
+        own -= slopes_[k];
+      else if (other != s.signals.end())
+        row_[others + static_cast<std::size_t>(other - s.signals.begin())] -= slopes_[k];
+    }
   }
   const solve::ElementView view = linear_.solver().element(s.element);
   const std::size_t last = (n - 1) * n;
@@ -132,10 +150,14 @@ template <class G>
 double Signals::eval_rate(std::size_t signal, const State& state, const elements::FieldOn<G, double>& field,
                           const std::vector<lanes::Taylor<double, 1>>& laws) {
   const plan::SignalPlan& s = plan_.signals[signal];
-  if (s.reads_motion())
-    return elements::eval_reading_rate(plan::reading_on<G>(plan_, signal), field, turns_of(s, state));
-  eval<G>(signal, state, field);
+  if (s.rule == plan::SignalRule::input) return 0.0;
   double rate = 0.0;
+  if (s.reads_motion()) {
+    rate = elements::eval_reading_rate(plan::reading_on<G>(plan_, signal), field, turns_of(s, state));
+    std::fill(slopes_.begin(), slopes_.end(), 1.0);  // by the laws of an effort; its multiplier's rate is an unknown
+  } else {
+    eval<G>(signal, state, field);
+  }
   for (std::size_t k = 0; k < s.inputs.size(); ++k) rate += slopes_[k] * laws[at(s.inputs[k])].c[1];
   return rate;
 }

@@ -153,6 +153,7 @@ std::optional<Trouble> solve_accelerations(System& system, State& state) {
   for (const UnknownPlaces::Multiplier& at : system.places().multipliers())
     state.multipliers[at.multiplier] = x[at.unknown];
   system.recover_multipliers(state);
+  if (system.plan().signals_read_multipliers) system.signals().follow_motion(state);
   return std::nullopt;
 }
 
@@ -216,7 +217,8 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   // (M + O(h^2) K) jerk + G^T lambda' = -(residual)',  G jerk = -Phi'''|_{jerk = 0}, with the step's own matrix:
   // modes faster than the step are filtered, smooth ones change by O(h) only.
   const double acceleration = (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h);
-  const elements::Slopes slopes{c.gamma / (c.beta * h), acceleration, false, states.slope()};
+  // Rows take third derivatives of signals from their series: the unknown of a state is its second one.
+  const elements::Slopes slopes{c.gamma / (c.beta * h), acceleration, false, states.slope(), true};
   std::vector<double> rate, rhs(system.places().size()), x(system.places().size());
   std::vector<Taylor<double, 3>> series;
   evaluate_rate(system, state, rate, h);

@@ -41,6 +41,9 @@ State make_initial_state(const plan::Plan& plan) {
   s.multiplier_trend = s.multiplier_trend_change = s.multipliers;
   for (const plan::SignalPlan& signal : plan.signals) s.signals.value.push_back(signal.start);
   s.signals.rate.assign(plan.signals.size(), 0.0);
+  s.signals.given = s.signals.rate;
+  for (std::size_t i = 0; i < plan.signals.size(); ++i)
+    if (plan.signals[i].rule == plan::SignalRule::input) s.signals.given[i] = plan.signals[i].start;
   s.signals.algorithmic = s.signals.trend = s.signals.rate;
   for (std::size_t i = 0; i < n; ++i) {
     elements::NodeMotion& node = nodes.motion[i];

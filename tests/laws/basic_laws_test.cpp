@@ -2,9 +2,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
+#include "bough/laws/formula.hpp"
+#include "bough/laws/law_error.hpp"
 #include "bough/laws/make_law.hpp"
+#include "bough/laws/surface.hpp"
 #include "check_law.hpp"
 
 namespace bough::laws {
@@ -12,6 +16,115 @@ namespace {
 
 using Times = std::vector<double>;
 constexpr double pi = std::numbers::pi;
+
+TEST(Monotone, values_at_knots_and_lines_and_constants_are_reproduced) {
+  const std::vector<double> times{-1.0, 0.0, 0.3, 2.0, 2.5, 6.0};
+  std::vector<double> line, other{3.0, -1.0, -1.0, 4.0, 4.5, 20.0};
+  for (const double t : times) line.push_back(2.0 - 0.7 * t);
+  const Law straight = make_table(times, line, Interpolation::monotone);
+  for (double t = -0.99; t < 6.0; t += 0.173) expect_equal(straight.at(t), {2.0 - 0.7 * t, -0.7, 0.0}, 1e-13);
+  const Law flat = make_table(times, std::vector<double>(6, 2.5), Interpolation::monotone);
+  for (double t = -2.0; t < 7.0; t += 0.31) expect_equal(flat.at(t), {2.5, 0.0, 0.0}, 0.0);
+  const Law law = make_table(times, other, Interpolation::monotone);
+  for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(law.at(times[i]).value, other[i], 1e-14);
+  EXPECT_EQ(law.at(-5.0).value, 3.0);
+  EXPECT_EQ(law.at(9.0).value, 20.0);
+  expect_equal(make_table({0.0, 4.0}, {1.0, 3.0}, Interpolation::monotone).at(1.0), {1.5, 0.5, 0.0}, 1e-15);
+}
+
+// Random data with steep rises, plateaus and turns: between two knots the law does not leave their values, and its rate
+// has one sign.
+TEST(Monotone, no_interval_overshoots) {
+  unsigned seed = 7;
+  const auto number = [&seed] {
+    seed = seed * 1664525u + 1013904223u;
+    return static_cast<double>(seed >> 8) / 16777216.0;
+  };
+  for (int sample = 0; sample < 200; ++sample) {
+    std::vector<double> times{0.0}, values{0.0};
+    for (int i = 0; i < 8; ++i) {
+      times.push_back(times.back() + std::pow(10.0, -2.0 + 2.0 * number()));
+      const double rise = std::pow(10.0, -3.0 + 5.0 * number());
+      values.push_back(values.back() + (number() < 0.2 ? 0.0 : number() < 0.3 ? -rise : rise));
+    }
+    const Law law = make_table(times, values, Interpolation::monotone);
+    for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+      const double rise = values[i + 1] - values[i], width = times[i + 1] - times[i];
+      for (int k = 0; k <= 50; ++k) {
+        const LawValue f = law.at(times[i] + width * k / 50.0, k == 50 ? Side::left : Side::right);
+        EXPECT_GE(f.rate * (rise > 0.0 ? 1.0 : -1.0), -1e-9 * std::abs(rise) / width) << "sample " << sample;
+        if (rise == 0.0) EXPECT_EQ(f.rate, 0.0);
+      }
+    }
+  }
+}
+
+TEST(Monotone, has_the_derivatives_of_its_value_and_jumps_in_the_second_alone) {
+  const std::vector<double> times{0.0, 1.0, 1.5, 3.0}, values{0.0, 0.2, 2.0, 2.1};
+  const Law law = make_table(times, values, Interpolation::monotone);
+  for (const double t : {0.3, 0.8, 1.2, 1.44, 2.0, 2.9}) expect_derivatives_match(law, t, 1e-3, 10.0);
+  for (const double t : {1.0, 1.5})
+    EXPECT_NEAR(law.at(t, Side::left).rate, law.at(t, Side::right).rate, 1e-13) << "the rate is continuous";
+  EXPECT_EQ(law.breakpoints(-1.0, 4.0), times);
+  const Law sum = law.integral(0.0);
+  expect_derivatives_match(sum, 1.7, 1e-3, 10.0);
+  EXPECT_EQ(sum.at(2.0).rate, law.at(2.0).value);
+}
+
+TEST(Surface, reproduces_its_points_and_bilinear_functions) {
+  const std::vector<double> xs{-1.0, 0.5, 4.0}, ys{0.0, 1.0, 1.5, 9.0};
+  const auto f = [](double x, double y) { return 2.0 - 3.0 * x + 0.5 * y - 0.2 * x * y; };
+  std::vector<double> values;
+  for (const double x : xs)
+    for (const double y : ys) values.push_back(f(x, y));
+  const Surface surface(xs, ys, values);
+  for (double x = -0.95; x < 4.0; x += 0.31)
+    for (double y = 0.05; y < 9.0; y += 0.77) {
+      double slopes[2];
+      EXPECT_NEAR(surface(x, y, slopes), f(x, y), 1e-14 * 30.0);
+      EXPECT_EQ(surface(x, y), surface(x, y, slopes));
+      EXPECT_NEAR(slopes[0], -3.0 - 0.2 * y, 1e-12);
+      EXPECT_NEAR(slopes[1], 0.5 - 0.2 * x, 1e-12);
+    }
+  for (std::size_t i = 0; i < xs.size(); ++i)
+    for (std::size_t j = 0; j < ys.size(); ++j)
+      EXPECT_NEAR(surface(xs[i], ys[j]), values[i * ys.size() + j], 1e-14 * 30.0);
+}
+
+TEST(Surface, outside_it_is_the_nearest_point_and_on_lines_the_side_of_growth_counts) {
+  const Surface surface({0.0, 1.0, 3.0}, {0.0, 2.0}, {0.0, 4.0, 1.0, 7.0, 9.0, 9.0});
+  double slopes[2];
+  EXPECT_EQ(surface(-3.0, 1.0, slopes), 2.0);
+  EXPECT_EQ(slopes[0], 0.0);
+  EXPECT_EQ(slopes[1], 2.0);
+  EXPECT_EQ(surface(7.0, 8.0, slopes), 9.0);
+  EXPECT_EQ(slopes[0], 0.0);
+  EXPECT_EQ(slopes[1], 0.0);
+  EXPECT_EQ(surface(1.0, 0.0, slopes), 1.0);
+  EXPECT_EQ(slopes[0], 4.0);
+  EXPECT_EQ(Surface()(1.0, 2.0), 0.0);
+  EXPECT_EQ(Surface({1.0}, {2.0}, {5.0})(0.0, 0.0), 5.0);
+  EXPECT_THROW(Surface({1.0, 1.0}, {2.0}, {5.0, 5.0}), LawError);
+  EXPECT_THROW(Surface({1.0, 2.0}, {2.0}, {5.0}), LawError);
+}
+
+/// The motion x(t) = 0.4 + 0.3 t + 0.6 t^2 and another one of y.
+LawValue x_at(double t) { return {0.4 + t * (0.3 + 0.6 * t), 0.3 + 1.2 * t, 1.2}; }
+LawValue y_at(double t) { return {1.2 - 0.5 * t + 0.25 * t * t, -0.5 + 0.5 * t, 0.5}; }
+
+TEST(Motions, of_tables_and_formulas_have_the_derivatives_of_their_values) {
+  const Surface surface({0.0, 0.3, 1.0}, {0.0, 1.0, 2.0}, {0.0, 4.0, 1.0, 7.0, 9.0, 3.0, 2.0, 5.0, 8.0});
+  const std::vector<std::string> names{"x", "y"};
+  const Formula formula("x^3*sin(y) - max(x, y)/(1 + x)", names);
+  const double h = 1e-3;
+  const auto check = [&](auto&& f) {
+    const LawValue now = f(0.1);
+    EXPECT_NEAR(now.rate, (f(0.1 + h).value - f(0.1 - h).value) / (2.0 * h), 2e-5);
+    EXPECT_NEAR(now.acceleration, (f(0.1 + h).rate - f(0.1 - h).rate) / (2.0 * h), 2e-5);
+  };
+  check([&](double t) { return surface.along(x_at(t), y_at(t)); });
+  check([&](double t) { return formula.along(std::vector<LawValue>{x_at(t), y_at(t)}); });
+}
 
 TEST(BasicLaws, default_law_is_zero_and_constant) {
   const Law law;

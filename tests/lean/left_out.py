@@ -50,7 +50,7 @@ FEATURES = [
     ("gyroscopic terms of points", POINTS, "beads", "turning beads"),
     ("gyroscopic terms of translations", GYROSCOPIC, "net", "links"),
     ("gyroscopic terms of statics", GYROSCOPIC, "statics", "links"),
-    ("signals", Feature(functions="evaluate_law_slope add_signal_columns note_signal", files="src/step/signals.cpp src/elements/reading.cpp"), "links", "signals"),
+    ("signals", Feature(functions="evaluate_law_slope add_signal_columns note_signal", files="src/step/signals.cpp src/step/signal_series.cpp src/elements/reading.cpp"), "links", "signals"),
     ("sensors", Feature(functions="eval_sensors eval_between", files="src/results/observe.cpp src/results/observe_points.cpp src/run/step_window.cpp"), "links", "sensors"),
     ("pictures", Feature(functions="eval_motion"), "links", "pictures"),
     ("checks", Feature(functions=CHECKS + " look_at_error", files="src/results/balance.cpp src/results/energies.cpp src/elements/energies.cpp src/elements/measure.cpp src/step/local_error.cpp"),

@@ -111,6 +111,69 @@ TEST(Simulation, left_before_its_end_it_says_so) {
   EXPECT_FALSE(simulation.take_step());
 }
 
+// A rotor, J = 0.5 kg m^2, under a torque that is an input: angle and rate are those of constant accelerations, which
+// generalized-alpha integrates exactly. Set before the start, at it, within steps of equal and of controlled size.
+TEST(Simulation, inputs_hold_from_when_they_are_set) {
+  const std::string json = R"-({
+  "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.02, "tolerance": 1e-11},
+  "bodies": [{"name": "rotor", "mass": 2, "inertia": [0.5, 0.5, 0.5]}],
+  "joints": [{"name": "axle", "kind": "revolute", "first": "ground", "second": "rotor", "axis": [0, 0, 1],
+              "forces": [{"effort": {"signal": "torque"}}]}],
+  "signals": [{"name": "torque", "kind": "input", "start": 3}],
+  "sensors": [{"name": "angle", "kind": "joint_angle", "joint": "axle"},
+              {"name": "rate", "kind": "joint_rate", "joint": "axle"},
+              {"name": "torque", "kind": "signal", "signal": "torque"}]})-";
+  const std::vector<std::string> cases[] = {
+      {}, {"/without=[\"planar\"]"}, {"/analysis/integrator=bdf"}, {"/analysis/step_control={\"tolerance\": 1e-4}"}};
+  for (const std::vector<std::string>& overrides : cases) {
+    const scene::Scene scene = support::scene_of(json, overrides);
+    Simulation simulation(scene);
+    EXPECT_EQ(simulation.set_input("torque", 1.0), "");
+    ASSERT_TRUE(simulation.start());
+    EXPECT_EQ(simulation.value("torque"), 1.0);
+    EXPECT_EQ(simulation.set_input("torque", 2.0), "");
+    EXPECT_EQ(simulation.value("torque"), 2.0);
+    double angle = 0.0, rate = 0.0, since = 0.0, torque = 2.0;
+    for (const double next : {-5.0, -5.0, 0.0, 7.0}) {
+      ASSERT_TRUE(simulation.advance_to(since + 0.05));
+      const double t = simulation.time() - since;
+      angle += t * (rate + t * torque);  // accelerations torque / J
+      rate += 2.0 * torque * t;
+      EXPECT_NEAR(simulation.value("angle"), angle, 1e-9);
+      EXPECT_NEAR(simulation.value("rate"), rate, 1e-8);
+      since = simulation.time();
+      torque = next;
+      EXPECT_EQ(simulation.set_input("torque", next), "");
+    }
+    const auto moment = simulation.save();
+    ASSERT_TRUE(simulation.run());
+    const double t = 1.0 - since;
+    EXPECT_NEAR(simulation.value("angle"), angle + t * (rate + t * torque), 1e-8);
+    const records::Summary& summary = simulation.finish();
+    EXPECT_LT(summary.checks.energy_balance, 1e-6 * summary.checks.energy_scale) << "a jump of an input does no work";
+    EXPECT_NE(simulation.set_input("torque", 0.0), "") << "it has ended";
+    simulation.restore(*moment);
+    EXPECT_EQ(simulation.value("torque"), 7.0);
+    ASSERT_TRUE(simulation.run());
+    EXPECT_NEAR(simulation.value("angle"), angle + t * (rate + t * torque), 1e-8);
+  }
+}
+
+TEST(Simulation, inputs_that_are_none_are_refused_and_unset_ones_keep_their_start) {
+  const scene::Scene scene = support::scene_of(R"-({
+  "analysis": {"kind": "static"},
+  "bodies": [{"name": "mass", "mass": 2, "inertia": [1, 1, 1]}],
+  "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "mass", "position": [0, 0, 0],
+              "axis": [1, 0, 0], "forces": [{"effort": {"signal": "push"}, "stiffness": 40}]}],
+  "signals": [{"name": "push", "kind": "input", "start": 8}, {"name": "other", "kind": "time", "law": 1}],
+  "sensors": [{"name": "x", "kind": "joint_displacement", "joint": "rail"}]})-");
+  Simulation simulation(scene);
+  EXPECT_NE(simulation.set_input("other", 1.0).find("no signal of kind \"input\""), std::string::npos);
+  EXPECT_NE(simulation.set_input("push", std::nan("")).find("finite"), std::string::npos);
+  ASSERT_TRUE(simulation.run());
+  EXPECT_NEAR(simulation.value("x"), 0.2, 1e-12);
+}
+
 TEST(Simulation, taken_back_it_goes_on_as_before) {
   for (const Case& c : all_analyses()) {
     SCOPED_TRACE(c.name);

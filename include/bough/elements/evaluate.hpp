@@ -32,7 +32,8 @@ struct Slopes {
   double velocity = 0.0;      ///< gamma / (beta h) [1/s]
   double acceleration = 0.0;  ///< (1 - alpha_m) / ((1 - alpha_f) beta h^2) [1/s^2]
   bool mass_only = false;
-  double rate = 0.0;  ///< of x' by x of a first-order state [1/s]
+  double rate = 0.0;          ///< of x' by x of a first-order state [1/s]
+  bool holds_drives = false;  ///< the rows of joints do not change with signals that are their laws
 };
 
 /// Motions of all nodes, and the quantities common to all elements of a model.

@@ -17,4 +17,8 @@ double eval_reading(const JointOn<G, double>& reading, const FieldOn<G, double>&
 template <class G>
 double eval_reading_rate(const JointOn<G, double>& reading, const FieldOn<G, double>& field, double turns);
 
+/// The reading of a coordinate, without a damper, as a series in time along the motion in space. The third coefficient
+/// lacks the rate of accelerations, which is taken as 0.
+lanes::Taylor<double, 3> eval_reading_series(const Joint& reading, const Field& field, double turns);
+
 }  // namespace bough::elements

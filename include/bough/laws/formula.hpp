@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bough/laws/law.hpp"
+
 namespace bough::laws {
 
 /// Names with a meaning in every formula: t, pi, e and the functions of make_expression.
@@ -38,6 +40,8 @@ class Formula {
   /// The same, with its derivative by each variable. Where a branch changes, a derivative is that of the side on which
   /// its variable grows.
   double operator()(std::span<const double> values, std::span<double> slopes) const;
+  /// Value, rate and acceleration in time, from those of the variables.
+  LawValue along(std::span<const LawValue> values) const;
 
   /// Unit of the value, from those of the variables in the order of their names (empty: a pure number). Empty if the
   /// value is a pure number, or if its unit does not follow: sides of sums, min and max have one unit, which numbers

@@ -132,9 +132,12 @@ struct TurnedLawPlan {
 enum class SignalRule : std::uint8_t {
   coordinate,  ///< of the relative motion of two frames
   rate,        ///< of such a coordinate
+  effort,      ///< along such a coordinate: of springs and dampers, of laws, and of a constraint
   function,    ///< a law, with another signal in the place of time
+  surface,     ///< a table of two other signals or laws
   formula,     ///< of other signals and laws
   state,       ///< the same, for the signal's rate
+  input,       ///< a number that is given from outside
 };
 
 /// A signal that changes with the motion: an unknown s with one equation, s = f or s' = f. Plan::signals holds them such
@@ -145,20 +148,28 @@ struct SignalPlan {
   int law = -1;      ///< its place among the values of laws, where elements and other signals read it
   int element = -1;  ///< of the block graph, after those of the directory
   int block = -1;
-  /// coordinate, rate: a joint without rows, whose only effort has the coordinate. On the group of a reduced model it is
-  /// in ModelOn::readings.
+  /// coordinate, rate, effort: a joint without rows, whose only effort has the coordinate; that of `effort` has the
+  /// stiffness, rest and damping of all springs and dampers along it, counted along the motion. On the group of a reduced
+  /// model it is in ModelOn::readings.
   elements::Joint reading;
-  std::string joint_name;    ///< of the joint whose coordinate it is; else empty
-  int joint = -1;            ///< index of that in Plan::joints
-  std::vector<int> nodes;    ///< that it reads and that have unknowns, none twice
-  laws::Law function;        ///< function
-  laws::Formula formula;     ///< formula, state
-  std::vector<int> inputs;   ///< of `function` and `formula`, by place among the values of laws
+  std::string joint_name;  ///< of the joint whose coordinate it is; else empty
+  int joint = -1;          ///< index of that in Plan::joints
+  int row = -1;            ///< effort: the row of the joint whose multiplier, with the sign changed, is added; -1: none
+  int row_in_block = -1;   ///< its place among the unknowns of the joint; -1: none of them
+  std::vector<int> nodes;  ///< that it reads and that have unknowns, none twice
+  laws::Law function;      ///< function
+  laws::Surface surface;   ///< surface
+  laws::Formula formula;   ///< formula, state
+  std::vector<int> inputs;   ///< by place among the values of laws; those of an effort are added
   std::vector<int> signals;  ///< indices in Plan::signals of the inputs that are unknowns, itself not included
-  double start = 0.0;        ///< state
+  double start = 0.0;        ///< state, input
 
-  bool reads_motion() const { return rule <= SignalRule::rate; }
+  bool reads_motion() const { return rule <= SignalRule::effort; }
   bool is_state() const { return rule == SignalRule::state; }
+  /// Whether its value depends on motions of nodes, and not on a multiplier and laws alone.
+  bool reads_nodes() const {
+    return reads_motion() && (reading.efforts[0].stiffness != 0.0 || reading.efforts[0].damping != 0.0);
+  }
 };
 
 struct SensorPlan {
@@ -217,7 +228,9 @@ struct Plan {
                       ///< inertial frame
   std::vector<TurnedLawPlan> turned_laws;
   std::vector<SignalPlan> signals;
-  std::vector<int> signal_of_law;                    ///< by law: index in signals; -1: none. Empty where signals is
+  std::vector<int> signal_of_law;  ///< by law: index in signals; -1: none. Empty where signals is
+  bool signals_drive = false;      ///< a signal is a law of a row of a joint
+  bool signals_read_multipliers = false;
   std::vector<std::vector<int>> signals_of_element;  ///< by global element id: those it reads. Empty where signals is
   std::vector<SensorPlan> sensors;
   std::vector<BodyPlan> bodies;  ///< in the scene's order

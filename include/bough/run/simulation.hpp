@@ -2,6 +2,7 @@
 /// A simulation that a program controls: it takes single steps or runs to a time, sensors can be read in between, and
 /// it can be set back to an earlier moment.
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -41,6 +42,11 @@ class Simulation {
   const std::vector<double>& values();
   /// One of these values, by "<sensor>.<component>" or "<sensor>"; throws std::out_of_range if there is none.
   double value(std::string_view column);
+
+  /// Sets a signal of kind "input", from the present time on. The next step starts anew, as at a jump of a law, unless
+  /// the value is the one that the signal has. Returns empty, or why it cannot be set: no input has this name, the value
+  /// is not finite, or the simulation has ended.
+  [[nodiscard]] std::string set_input(std::string_view signal, double value);
 
   /// A saved moment of this simulation: a copy of all data that steps change.
   class Moment;

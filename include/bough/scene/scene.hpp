@@ -11,6 +11,7 @@
 
 #include "bough/laws/formula.hpp"
 #include "bough/laws/law.hpp"
+#include "bough/laws/surface.hpp"
 #include "bough/motion/se3.hpp"
 #include "bough/scene/moving_frame.hpp"
 #include "bough/scene/shape_kinds.hpp"
@@ -134,6 +135,7 @@ struct JointDrive {
   std::string coordinate;
   bool is_rate = false;  ///< the law gives the rate; it is integrated exactly from the initial value
   laws::Law law;
+  std::string signal;  ///< the signal that is the coordinate in place of the law; empty: none
 };
 
 /// joint_kinds.hpp says which axes of the joint frames each kind uses, and what it leaves free.
@@ -195,8 +197,10 @@ struct PrescribedMotion {
   Attachment at;
   /// x y z [m] translations along the ground's axes; rotations only as one axis with an angle that counts turns.
   std::optional<laws::Law> displacement[3];
-  std::optional<Vec3> rotation_axis;  ///< given: orientation is exp(angle(t) axis) times the initial one
+  std::string displacement_signal[3];  ///< signals in place of these laws, which are given then; empty: none
+  std::optional<Vec3> rotation_axis;   ///< given: orientation is exp(angle(t) axis) times the initial one
   laws::Law angle;
+  std::string angle_signal;
   bool hold_rotation = false;  ///< orientation held at its initial value
   bool is_rate = false;
 };
@@ -214,29 +218,35 @@ enum class SignalKind : std::uint8_t {
   joint_angle,
   joint_displacement,
   joint_rate,
-  position,  ///< of a point, along an axis of the ground or of a frame [m]
-  velocity,  ///< the rate of that [m/s]
-  time,      ///< a law of time
-  function,  ///< a law, of another signal in the place of time
-  formula,   ///< of other signals
-  state,     ///< x' = formula of signals, itself included
+  joint_effort,  ///< along a coordinate, of springs, dampers, efforts and the drive or the row that holds it [N], [N m]
+  spring_tension,  ///< [N]
+  position,        ///< of a point, along an axis of the ground or of a frame [m]
+  velocity,        ///< the rate of that [m/s]
+  time,            ///< a law of time
+  function,        ///< a law, of another signal in the place of time
+  surface,         ///< a table of two signals
+  formula,         ///< of other signals
+  state,           ///< x' = formula of signals, itself included
+  input,           ///< a number that a program sets between steps
 };
 
-/// A number that changes with the motion, for efforts and loads. All signals at one instant belong to the same motion:
+/// A number that changes with the motion, for drives, efforts and loads. All signals at one instant belong to the same motion:
 /// none lags behind.
 struct Signal {
   std::string name;  ///< a word of formulas
   SignalKind kind = SignalKind::formula;
   std::string joint;
-  std::string coordinate;           ///< joint_rate: "angle" or "displacement"; empty: the only one the joint has
+  std::string coordinate;           ///< joint_rate, joint_effort: "angle" or "displacement"; empty: the only one
+  std::string spring;               ///< spring_tension
   Attachment at;                    ///< position, velocity
   int axis = 0;                     ///< position, velocity: 0, 1 or 2
   std::string frame;                ///< position, velocity: what sees the point, in whose axes; empty: the ground
   laws::Law law;                    ///< time, function
   std::string of;                   ///< function: the signal in the place of time
+  laws::Surface surface;            ///< surface: of the two `inputs`
   laws::Formula formula;            ///< formula, state: in the values of `inputs`
   std::vector<std::string> inputs;  ///< names of signals
-  double start = 0.0;               ///< state: at the start of dynamics
+  double start = 0.0;               ///< state: at the start of dynamics; input: until it is set
 };
 
 enum class SensorKind : std::uint8_t {

@@ -23,8 +23,16 @@ const JointCoordinate* coordinate_of(const Signal& signal, const JointType& join
 bool reads_joint(SignalKind kind);
 bool reads_point(SignalKind kind);
 
+/// The highest time derivative of positions on which the present value of each signal depends: 0 positions, 1 rates, 2
+/// forces of constraints, -1 none. A state depends on one less than its rate does, since it is integrated.
+std::vector<int> levels_of_signals(const Scene& scene);
+
+/// Names of the signals of whose present values a signal is made: its inputs, none for a state, and for an effort the
+/// signals that drive it along the coordinate.
+std::vector<std::string> present_inputs(const Scene& scene, const Signal& signal);
+
 /// Indices of all signals, each after those of whose present values it is made; a state is made of none. The signals of
 /// a circle are missing. An input that is no signal counts as known.
-std::vector<std::size_t> order_of_signals(const std::vector<Signal>& signals);
+std::vector<std::size_t> order_of_signals(const Scene& scene);
 
 }  // namespace bough::scene

@@ -4,6 +4,7 @@
 
 #include "bough/lanes/taylor.hpp"
 #include "bough/step/instant.hpp"
+#include "bough/step/signal_series.hpp"
 #include "bough/step/state.hpp"
 #include "bough/tree/walker.hpp"
 
@@ -35,12 +36,17 @@ class Constraints {
   double relative_violation(const State& state, int order, int* joint = nullptr) const;
 
  private:
+  /// Laws as series, those that are signals along the motion of the state.
+  const Instant::Series& laws_of(const State& state, const elements::Field& field, double step_size) const;
   double largest_violation(const State& state, int order, bool is_relative, int* joint) const;
 
   const plan::Plan& plan_;
   const Instant& instant_;
   tree::Walker walker_;
-  mutable Instant::Series series_;         ///< scratch of largest_violation
+  mutable Instant::Series series_;  ///< scratch of largest_violation
+  mutable Instant::Series laws_;    ///< scratch where signals drive rows
+  mutable std::vector<lanes::Taylor<double, 1>> law_rates_;
+  mutable SignalSeries signals_;
   mutable std::vector<Violations> parts_;  ///< scratch of violations, by chunk of joints
 };
 

@@ -39,6 +39,7 @@ using SpatialNodes = NodesOn<motion::Se3>;
 /// Values by signal (Plan::signals). Rates are those of states, zero for other signals.
 struct SignalValues {
   std::vector<double> value, rate;
+  std::vector<double> given;        ///< of inputs, as they were set last; zero for other signals
   std::vector<double> algorithmic;  ///< a_n of generalized-alpha for states
   std::vector<double> trend;        ///< change over the last step: of a state's rate, of another signal's value
 };
