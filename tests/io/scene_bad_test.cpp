@@ -363,11 +363,6 @@ const Bad frame_cases[] = {
      "no signal has this name"},
     {"\"axis\": [1, 0, 0] },", "\"axis\": [1, 0, 0], \"drives\": [ { \"law\": { \"signal\": @\"go\" } } ] },",
      "/joints/1/drives/0/law/signal", "the scene has no signals"},
-    {"\"axis\": [1, 0, 0] },",
-     "\"axis\": [1, 0, 0], \"drives\": [ { \"law\": { \"signal\": @\"go\" } } ] } ], \"signals\": [ { \"name\": "
-     "\"go\", "
-     "\"kind\": \"position\", \"at\": \"tip\", \"axis\": \"x\" } ], \"bushings\": [], \"joints_\": [",
-     "", ""},
     {"\"position\": [0, 0, 1], \"rotation\": { \"axis\"",
      "\"position\": [0, @{ \"signal\": \"y\" }, 1], \"rotation\": { "
      "\"axis\"",

@@ -50,8 +50,8 @@ TEST(Monotone, no_interval_overshoots) {
     const Law law = make_table(times, values, Interpolation::monotone);
     for (std::size_t i = 0; i + 1 < times.size(); ++i) {
       const double rise = values[i + 1] - values[i], width = times[i + 1] - times[i];
-      for (int k = 0; k <= 50; ++k) {
-        const LawValue f = law.at(times[i] + width * k / 50.0, k == 50 ? Side::left : Side::right);
+      for (int k = 0; k < 50; ++k) {
+        const LawValue f = law.at(times[i] + width * k / 50.0);
         EXPECT_GE(f.rate * (rise > 0.0 ? 1.0 : -1.0), -1e-9 * std::abs(rise) / width) << "sample " << sample;
         if (rise == 0.0) EXPECT_EQ(f.rate, 0.0);
       }

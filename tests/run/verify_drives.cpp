@@ -94,8 +94,8 @@ TEST(Drives, a_lag_drives_a_joint_to_the_order_of_the_motion) {
     };
     EXPECT_NEAR(order_of(error_of("angle", angle), 0.02), way.order, 0.25);
     EXPECT_NEAR(order_of(error_of("rate", rate), 0.02), way.order, 0.25);
-    EXPECT_NEAR(order_of(error_of("torque", torque), 0.02), way.order, 0.4);
-    EXPECT_LT(error_of("torque", torque)(0.01), 3e-3 * J * w);
+    EXPECT_NEAR(order_of(error_of("torque", torque), 0.01), way.order, 0.25) << "what the start leaves has decayed";
+    EXPECT_LT(error_of("torque", torque)(0.01), 1e-3 * J * w);
   }
 }
 
@@ -218,7 +218,7 @@ TEST(Drives, a_signal_prescribes_a_rotation) {
   "signals": [{"name": "x", "kind": "state", "expression": "(2 - x)/0.5"}],
   "sensors": [{"name": "turn", "kind": "rotation", "at": "rotor"}]})-";
   const double x = 2.0 * (1.0 - std::exp(-2.0));
-  EXPECT_NEAR(run_ok(scene_of(json)).history.last("turn.z"), x, 1e-5);
+  EXPECT_NEAR(run_ok(scene_of(json)).history.last("turn.rz"), x, 1e-5);
 }
 
 // In statics the state is where its rate is 0, and so is what it drives.
