@@ -218,7 +218,8 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   // modes faster than the step are filtered, smooth ones change by O(h) only.
   const double acceleration = (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h);
   // Rows take third derivatives of signals from their series: the unknown of a state is its second one.
-  const elements::Slopes slopes{c.gamma / (c.beta * h), acceleration, false, states.slope(), true};
+  const elements::Slopes slopes{c.gamma / (c.beta * h), acceleration, false, states.slope(),
+                                system.plan().signals_drive};
   std::vector<double> rate, rhs(system.places().size()), x(system.places().size());
   std::vector<Taylor<double, 3>> series;
   evaluate_rate(system, state, rate, h);
