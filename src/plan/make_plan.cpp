@@ -387,14 +387,6 @@ void Builder::make_graph() {
     }
     for (const int node : s.nodes) g.element_blocks.push_back(plan.block_of_node[static_cast<std::size_t>(node)]);
     for (const int other : s.signals) g.element_blocks.push_back(plan.signals[static_cast<std::size_t>(other)].block);
-    if (s.row >= 0) {
-      const JointPlan& joint = plan.joints[static_cast<std::size_t>(s.joint)];
-      const auto row = std::find(joint.rows.begin(), joint.rows.end(), s.row);
-      if (joint.block >= 0 && row != joint.rows.end()) {
-        s.row_in_block = static_cast<int>(row - joint.rows.begin());
-        g.element_blocks.push_back(joint.block);
-      }
-    }
     g.element_blocks.push_back(s.block);
     g.element_begin.push_back(static_cast<std::int64_t>(g.element_blocks.size()));
   }

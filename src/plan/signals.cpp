@@ -167,6 +167,17 @@ void Builder::list_signals_of_elements() {
         if (s >= 0 && std::find(read.begin(), read.end(), s) == read.end()) read.push_back(s);
       }
     });
+  // A multiplier belongs to the element of its joint alone, which so holds the entry in the row of a signal that reads it.
+  for (std::size_t i = 0; i < plan.signals.size(); ++i) {
+    SignalPlan& p = plan.signals[i];
+    if (p.row < 0 || p.joint < 0) continue;
+    const JointPlan& joint = plan.joints[static_cast<std::size_t>(p.joint)];
+    const auto row = std::find(joint.rows.begin(), joint.rows.end(), p.row);
+    if (row == joint.rows.end()) continue;
+    p.row_in_block = static_cast<int>(row - joint.rows.begin());
+    std::vector<int>& read = plan.signals_of_element[static_cast<std::size_t>(joint.element)];
+    if (std::find(read.begin(), read.end(), static_cast<int>(i)) == read.end()) read.push_back(static_cast<int>(i));
+  }
 }
 
 }  // namespace bough::plan

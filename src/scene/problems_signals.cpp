@@ -49,6 +49,27 @@ void check_joint_of(ProblemList& list, std::size_t i, const Signal& s) {
                  ": name one of them as coordinate");
 }
 
+void check_spring_of(ProblemList& list, std::size_t i, const Signal& s) {
+  std::vector<std::string> springs;
+  for (const Spring& spring : list.scene.springs) springs.push_back(spring.name);
+  if (std::find(springs.begin(), springs.end(), s.spring) != springs.end() || list.is_defective(s.spring)) return;
+  const std::string near = list.nearest(s.spring, springs);
+  list.add("signals", i, "spring", s.spring, "no spring has this name",
+           !near.empty()     ? "did you mean \"" + near + "\"?"
+           : springs.empty() ? "the scene has no springs"
+                             : "");
+}
+
+/// Two signals that read one effort are one number twice.
+void check_twin_efforts(ProblemList& list, std::size_t i) {
+  const Signal& s = list.scene.signals[i];
+  for (std::size_t k = 0; k < i; ++k)
+    if (const Signal& other = list.scene.signals[k];
+        other.kind == s.kind && other.joint == s.joint && other.coordinate == s.coordinate)
+      return list.add("signals", i, "joint", s.joint, "signal '" + other.name + "' is this effort already",
+                      "take its name");
+}
+
 /// Signals that wait for each other without a state between them have no value that follows from the motion alone.
 void check_circles(ProblemList& list) {
   const std::vector<Signal>& signals = list.scene.signals;
@@ -186,6 +207,7 @@ void check_signals(ProblemList& list) {
       list.add("signals", i, "name", s.name, "formulas cannot call a signal by this name",
                "a letter or _, then letters, digits and _; not pi, e, t or a function");
     if (reads_joint(s.kind)) check_joint_of(list, i, s);
+    if (s.kind == SignalKind::joint_effort) check_twin_efforts(list, i);
     if (reads_point(s.kind)) {
       list.check_place("signals", i, "at", s.at.to, false);
       if (!s.frame.empty()) list.check_place("signals", i, "frame", s.frame, true);
@@ -196,11 +218,7 @@ void check_signals(ProblemList& list) {
     if (s.kind == SignalKind::surface)
       for (std::size_t k = 0; k < s.inputs.size(); ++k)
         names.check("signals", i, "of/" + std::to_string(k), s.inputs[k]);
-    if (s.kind == SignalKind::spring_tension) {
-      std::vector<std::string> springs;
-      for (const Spring& spring : scene.springs) springs.push_back(spring.name);
-      list.check_reference("signals", i, "spring", s.spring, springs, "spring");
-    }
+    if (s.kind == SignalKind::spring_tension) check_spring_of(list, i, s);
     if (s.kind == SignalKind::time) list.check_law("signals", i, "law", s.law, false);
   }
   for (std::size_t i = 0; i < scene.sensors.size(); ++i)

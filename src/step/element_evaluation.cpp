@@ -22,7 +22,7 @@ double length_of(const E& e, double fallback) {
 }
 
 /// The tangent of an element that reads signals, K in its own n unknowns, with a column for each signal, which `slope`
-/// writes; the rows of signals are zero, for their equations are elements of their own.
+/// writes; the rows of signals are zero, for their equations are elements of their own, but for entries of multipliers.
 template <class Slope>
 void add_signal_columns(int n, int num_signals, const double* K, double* extended, Slope&& slope) {
   const int all = n + num_signals;
@@ -117,6 +117,12 @@ void ElementEvaluation::evaluate_alone(std::size_t id, const State& state, const
           elements::evaluate_law_slope(e, f, multipliers, turns, signal.law, column);
         if (f.slopes.holds_drives) std::fill(column + n - elements::num_multipliers(e), column + n, 0.0);
       });
+      for (int s = 0; s < num_signals && !f.slopes.mass_only; ++s) {
+        const plan::SignalPlan& signal = plan_.signals[static_cast<std::size_t>(signals[static_cast<std::size_t>(s)])];
+        if (signal.joint != j || signal.row_in_block < 0) continue;
+        const int all = n + num_signals, column = n - elements::num_multipliers(e) + signal.row_in_block;
+        extended[static_cast<std::size_t>((n + s) * all + column)] = 1.0;  // of s - (... - multiplier)
+      }
       write_matrix(
           trimmed_, id, n + num_signals, [&](int i) { return extended[static_cast<std::size_t>(i)]; }, view);
       return;

@@ -8,8 +8,9 @@
 
 namespace bough::step {
 
-/// Of an element: a beam of four nodes, or a line load on it that reads a signal.
-inline constexpr std::size_t most_unknowns = 25;
+/// Of an element: a joint with six rows of which signals drive two, four efforts that are signals, and two signals that
+/// read its efforts. A line load on a beam of four nodes has 25.
+inline constexpr std::size_t most_unknowns = 26;
 
 /// Numbers of items that a task takes at once; chunks do not depend on the number of threads. Pairs of nodes are
 /// counted by eights.

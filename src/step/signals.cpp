@@ -21,7 +21,7 @@ Signals::Signals(const plan::Plan& plan, const Instant& instant, const UnknownPl
   std::size_t most = most_of_ports;
   for (const plan::SignalPlan& s : plan.signals) most = std::max(most, s.inputs.size());
   for (std::vector<double>* scratch : {&inputs_, &slopes_}) scratch->assign(most, 0.0);
-  row_.assign(most_of_ports + most + elements::max_rows + 1, 0.0);
+  row_.assign(most_of_ports + most + 1, 0.0);
 }
 
 /// The angle at the last accepted step of the joint that a signal reads.
@@ -75,8 +75,8 @@ Signals::Value Signals::eval(std::size_t signal, const State& state, const eleme
   return value;
 }
 
-/// The last row of the matrix of an equation is (-df/d(nodes), -df/d(other signals), -df/d(multipliers of its joint),
-/// own); all else is zero.
+/// The last row of the matrix of an equation is (-df/d(nodes), -df/d(other signals), own); all else is zero. By the
+/// multiplier that an effort reads, the entry is in the matrix of the joint.
 void Signals::put_matrix(std::size_t signal, const elements::Slopes& slopes) {
   const plan::SignalPlan& s = plan_.signals[signal];
   const auto dof = static_cast<std::size_t>(plan_.unknowns.count);
@@ -85,13 +85,11 @@ void Signals::put_matrix(std::size_t signal, const elements::Slopes& slopes) {
   };
   std::size_t others = 0;
   for (const int node : s.nodes) others += count_of(node);
-  const std::size_t multipliers = others + s.signals.size();
-  const std::size_t n = multipliers + (s.row_in_block < 0 ? 0 : plan_.joints[at(s.joint)].rows.size()) + 1;
+  const std::size_t n = others + s.signals.size() + 1;
   std::fill(row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
   double& own = row_[n - 1] = 1.0;
   if (!slopes.mass_only) {
     if (s.is_state()) own = slopes.rate;
-    if (s.row_in_block >= 0) row_[multipliers + at(s.row_in_block)] = 1.0;
     if (s.reads_motion()) {
       for (std::size_t port = 0; port < 2; ++port) {
         const auto node = std::find(s.nodes.begin(), s.nodes.end(), s.reading.ports[port].node);

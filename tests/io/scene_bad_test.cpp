@@ -195,6 +195,15 @@ const Bad frame_cases[] = {
      "\"title\": \"base\", \"signals\": [ { \"name\": \"a\", \"kind\": \"surface\", \"of\": [\"b\", @\"c\"], \"x\": "
      "[0, 1], \"y\": [0], \"values\": [ [1], [3] ] }, { \"name\": \"b\", \"kind\": \"time\", \"law\": 1 } ],",
      "/signals/0/of/1", "did you mean"},
+    {"\"title\": \"base\",",
+     "\"title\": \"base\", \"signals\": [ { \"name\": \"a\", \"kind\": \"joint_effort\", \"joint\": \"hinge\" }, { "
+     "\"name\": \"b\", \"kind\": \"joint_effort\", \"joint\": @\"hinge\" } ],",
+     "/signals/1/joint", "is this effort already"},
+    {"\"forces\": [ { \"damping\": 0.1 } ] }",
+     "\"forces\": [ { \"damping\": 0.1, \"effort\": { \"signal\": @\"a\" } } ] }, { \"name\": \"rod\", \"kind\": "
+     "\"distance\", \"first\": \"cart\", \"second\": \"tip\" } ], \"signals\": [ { \"name\": \"a\", \"kind\": "
+     "\"joint_effort\", \"joint\": \"rod\" }",
+     "/joints/2/forces/0/effort/signal", "which would follow from itself"},
     {"\"position\": [0, 0, 1], \"rotation\"", "\"position\": @[0, 0], \"rotation\"", "/frames/0/position", "3"},
     {"\"position\": [0, 0, 1], \"rotation\"", "\"position\": [0, { \"expression\": @\"sin(\" }, 1], \"rotation\"",
      "/frames/0/position/1/expression", "character"},
