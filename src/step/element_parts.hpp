@@ -33,6 +33,12 @@ void for_each_part(const plan::Plan& plan, std::size_t element, F&& f) {
     f(plan.signals[static_cast<std::size_t>(signal)].block, 1, -1);
 }
 
+/// How many of the `size` unknowns of a part, as given by for_each_part, are in the linear system. They come first.
+inline int num_kept(const plan::Plan& plan, int block, int size, int node) {
+  if (block < 0) return 0;
+  return node < 0 ? size : plan.unknowns.count_of(static_cast<std::size_t>(node));
+}
+
 /// Whether an element is a joint none of whose rows is an unknown, in a scene whose nodes do not turn: it neither
 /// pushes nor pulls on its nodes, and no motion changes its rows.
 inline bool is_idle_joint(const plan::Plan& plan, int joint) {

@@ -53,8 +53,8 @@ void add_rates(System& system, const State& state, double step_size, std::vector
     plan::with_element(plan::arrays_on<G>(plan), plan.directory[e], [&](const auto& element) {
       elements::evaluate_rate(element, f, around, multipliers, turns, part.data());
     });
-    for_each_part(plan, e, [&](int block, int size, int) {
-      for (int i = 0; i < size && block >= 0; ++i)
+    for_each_part(plan, e, [&](int block, int size, int node) {
+      for (int i = 0; i < num_kept(plan, block, size, node); ++i)
         rate[static_cast<std::size_t>(system.places().block_begin(block) + i)] += from[i];
       from += size;
     });

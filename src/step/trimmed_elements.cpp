@@ -12,7 +12,7 @@ TrimmedElements::TrimmedElements(const plan::Plan& plan) : kind_(plan.directory.
     int unknown = 0;
     std::vector<std::int8_t> kept;
     for_each_part(plan, e, [&](int block, int size, int node) {
-      const int own = block < 0 ? 0 : node < 0 ? size : plan.unknowns.count_of(static_cast<std::size_t>(node));
+      const int own = num_kept(plan, block, size, node);
       for (int i = 0; i < own; ++i) kept.push_back(static_cast<std::int8_t>(unknown + i));
       if (node >= 0 && own < size && kind_[e] != Kind::holds) kind_[e] = Kind::trimmed;
       unknown += size;
