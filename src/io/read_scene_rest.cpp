@@ -195,12 +195,10 @@ void Converter::read_measured_names(const Value& v, const std::string& at, scene
 
 /// Warns of keys that have no effect with the other choices.
 scene::SolverForm Converter::read_form(const Value& solver) {
-  const auto form_named = [](const std::string& name) {
-    return name == "augmented"    ? scene::SolverForm::augmented
-           : name == "global"     ? scene::SolverForm::global
-           : name == "hybrid"     ? scene::SolverForm::hybrid
-           : name == "monolithic" ? scene::SolverForm::monolithic
-                                  : scene::SolverForm::local;
+  const auto form_named = [](const std::string& name) {  // "automatic" and "hierarchical" were names of the first
+    const std::vector<std::string>& names = scene::solver_form_names();
+    const auto known = std::find(names.begin(), names.end(), name);
+    return known == names.end() ? scene::SolverForm::local : static_cast<scene::SolverForm>(known - names.begin());
   };
   const std::string form = text_or(solver, "form"), kind = text_or(solver, "kind");
   if (!form.empty() && !kind.empty() && form_named(form) != form_named(kind))

@@ -289,7 +289,7 @@ void add_settings(RuleTable& t) {
   add_analysis_rules(t, frame);
   t.named["solver"] = made(object_of(
       "Linear solver. What is left out is chosen from the scene.",
-      {may("form", word_rule("", {"local", "augmented", "global", "hybrid", "monolithic"}),
+      {may("form", word_rule("", scene::solver_form_names()),
            "Sub-domains condensed to their interfaces along a tree (local, the default); the same through the "
            "flexibilities of interfaces with a penalty (augmented), sub-domains torn apart and tied to each other "
            "(global), or some of their nodes kept on an interface mesh (hybrid), for comparison; or one factorization "

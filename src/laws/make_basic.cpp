@@ -66,9 +66,9 @@ std::vector<double> eval_spline_moments(const std::vector<double>& h, const std:
   return moments;
 }
 
-/// Slopes at the knots for cubics that are monotone where the data are (Fritsch, Carlson 1980): from the secants, 0 where
-/// two of them differ in sign or one is 0, and reduced where (m_i, m_{i+1}) / d_i leaves the circle of radius 3. Inner
-/// slopes start from the mean of the secants, those at the ends from the secants.
+/// Slopes at the knots for cubics that are monotone where the data are (Fritsch, Carlson 1980): from the secants, 0
+/// where two of them differ in sign or one is 0, and reduced where (m_i, m_{i+1}) / d_i leaves the circle of radius 3.
+/// Inner slopes start from the mean of the secants, those at the ends from the secants.
 std::vector<double> eval_monotone_slopes(const std::vector<double>& secants) {
   const std::size_t last = secants.size();
   std::vector<double> m(last + 1);

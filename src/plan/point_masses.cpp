@@ -10,10 +10,11 @@ using elements::Port;
 using motion::Vec3;
 
 /// A point mass has no rotational inertia, so it has displacements alone if no attached part depends on its rotation.
-/// If all its attachment points lie on one line through it, only the spin about this line has no effect. In dynamics it then gets
-/// the inertia m d^2 about this line, with the largest distance d, so that no unknown remains undetermined. This does
-/// not change any motion: no moment acts about the line, and a spin that starts at zero in the inertial frame stays
-/// zero (see stop_spins). In statics inertia would not hold the spin, and it would act as a load in a rotating frame.
+/// If all its attachment points lie on one line through it, only the spin about this line has no effect. In dynamics it
+/// then gets the inertia m d^2 about this line, with the largest distance d, so that no unknown remains undetermined.
+/// This does not change any motion: no moment acts about the line, and a spin that starts at zero in the inertial frame
+/// stays zero (see stop_spins). In statics inertia would not hold the spin, and it would act as a load in a rotating
+/// frame.
 void Builder::find_points() {
   std::vector<bool> feels(plan.nodes.size(), false);  // a part acts on the node by more than forces at points
   std::vector<std::vector<Vec3<double>>> met(plan.nodes.size());  // attachment points apart from the node

@@ -167,7 +167,7 @@ void Builder::list_signals_of_elements() {
         if (s >= 0 && std::find(read.begin(), read.end(), s) == read.end()) read.push_back(s);
       }
     });
-  // A multiplier belongs to the element of its joint alone, which so holds the entry in the row of a signal that reads it.
+  // A multiplier belongs to the element of its joint alone: that holds the entry in the row of a signal that reads it.
   for (std::size_t i = 0; i < plan.signals.size(); ++i) {
     SignalPlan& p = plan.signals[i];
     if (p.row < 0 || p.joint < 0) continue;

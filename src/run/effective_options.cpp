@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "bough/scene/components.hpp"
+
 namespace bough::run {
 
 namespace {
@@ -76,9 +78,8 @@ records::EffectiveOptions effective_options(const scene::Scene& scene, const ste
   list.emplace_back("analysis/tolerance", number(o.tolerance));
   list.emplace_back("analysis/max_iterations", std::to_string(o.max_iterations));
   list.emplace_back("analysis/max_cuts", std::to_string(o.max_cuts));
-  static const char* const forms[] = {"local", "augmented", "global", "hybrid", "monolithic"};
   const scene::SolverForm form = scene.solver.form;
-  list.emplace_back("solver/form", quoted(forms[static_cast<int>(form)]));
+  list.emplace_back("solver/form", quoted(scene::to_string(form)));
   if (form == scene::SolverForm::monolithic) {
     static const char* const libraries[] = {"klu", "sparse_lu", "umfpack", "cholmod"};
     list.emplace_back("solver/library", quoted(libraries[static_cast<int>(scene.solver.library)]));

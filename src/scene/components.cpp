@@ -21,6 +21,13 @@ std::vector<std::string> names_in_without() {
 
 std::string to_string(FigureKind kind) { return to_string(static_cast<MeasureKind>(kind)); }
 
+const std::vector<std::string>& solver_form_names() {
+  static const std::vector<std::string> names{"local", "augmented", "global", "hybrid", "monolithic"};
+  return names;
+}
+
+std::string to_string(SolverForm form) { return solver_form_names()[static_cast<std::size_t>(form)]; }
+
 std::string to_string(MeasureKind kind) {
   static const char* const names[] = {
       "value", "max", "min",        "time_of_max",   "time_of_min",        "range",  "period",

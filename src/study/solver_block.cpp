@@ -1,12 +1,12 @@
 #include "bough/io/number_text.hpp"
+#include "bough/scene/components.hpp"
 #include "bough/study/tune.hpp"
 
 namespace bough::study {
 
 std::string solver_block(const scene::Solver& s) {
-  static constexpr const char* forms[] = {"local", "augmented", "global", "hybrid", "monolithic"};
   static constexpr const char* libraries[] = {"klu", "sparse_lu", "umfpack", "cholmod"};
-  std::string text = std::string("{\"form\": \"") + forms[static_cast<int>(s.form)] + "\"";
+  std::string text = std::string("{\"form\": \"") + scene::to_string(s.form) + "\"";
   if (s.form == scene::SolverForm::monolithic)
     text += std::string(", \"library\": \"") + libraries[static_cast<int>(s.library)] + "\"";
   if (s.iterate_interface) text += ", \"interface_solution\": \"iterative\"";

@@ -101,13 +101,13 @@ class Tuner {
   }
 
  private:
-  /// Adds a candidate unless another one has the same tree.
+  /// Adds a candidate unless another one of its form has the same tree.
   void add(Solver solver) {
     Shape shape;
     if (has_tree(solver.form)) {
       shape = shape_of(plan_, solver);
       for (std::size_t k = 0; k < shapes_.size(); ++k)
-        if (list_[k].solver.tasks == solver.tasks && has_tree(list_[k].solver.form) && shapes_[k] == shape) return;
+        if (list_[k].solver.tasks == solver.tasks && list_[k].solver.form == solver.form && shapes_[k] == shape) return;
     }
     TuneCandidate c{.solver = solver, .num_subdomains = shape.subdomains, .num_levels = shape.levels};
     c.is_present = list_.empty();

@@ -12,13 +12,8 @@ namespace bough::run {
 namespace {
 
 using support::Outcome;
+using support::run_ok;
 using support::scene_of;
-
-Outcome run_ok(const scene::Scene& scene) {
-  Outcome r = support::run(scene);
-  EXPECT_TRUE(r.ok()) << r.summary.cause;
-  return r;
-}
 
 /// log2 of the ratio of errors of step sizes h and h / 2.
 template <class Error>

@@ -12,13 +12,8 @@ namespace bough::run {
 namespace {
 
 using support::Outcome;
+using support::run_ok;
 using support::scene_of;
-
-Outcome run_ok(const scene::Scene& scene) {
-  Outcome r = support::run(scene);
-  EXPECT_TRUE(r.ok()) << r.summary.cause;
-  return r;
-}
 
 const std::vector<std::string> forces{"fx", "fy", "fz", "mx", "my", "mz"};
 

@@ -14,6 +14,7 @@ namespace bough::run {
 namespace {
 
 using support::Outcome;
+using support::run_ok;
 using support::scene_of;
 
 /// An elastic arm that carries three masses: one pinned to its tip, one on a spring below it, and one on a rod below
@@ -48,12 +49,6 @@ scene::Scene arm_with_masses(bool points, const std::vector<std::string>& overri
               {"name": "clamp", "kind": "joint_reaction", "joint": "clamp"},
               {"name": "energy", "kind": "total_energy"}]})-",
                   overrides);
-}
-
-Outcome run_ok(const scene::Scene& scene) {
-  Outcome r = support::run(scene);
-  EXPECT_TRUE(r.ok()) << r.summary.cause;
-  return r;
 }
 
 int num_unknowns(const scene::Scene& scene) {

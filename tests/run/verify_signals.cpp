@@ -15,13 +15,8 @@ namespace {
 
 using support::gallery;
 using support::Outcome;
+using support::run_ok;
 using support::scene_of;
-
-Outcome run_ok(const scene::Scene& scene) {
-  Outcome r = support::run(scene);
-  EXPECT_TRUE(r.ok()) << r.summary.cause;
-  return r;
-}
 
 /// log2 of the ratio of errors of step sizes h and h / 2.
 template <class Error>

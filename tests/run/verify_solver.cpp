@@ -1,4 +1,4 @@
-/// One system, many ways to solve it: every gallery scene over threads, leaf sizes, depths, penalties, against the
+/// One system, many ways to solve it: every gallery scene over threads, leaf sizes, depths, forms, against the
 /// monolithic solver and the forms with global multipliers.
 ///
 /// Per quantity the difference has to be at most the largest of

@@ -203,4 +203,10 @@ double largest_difference(const Table& a, const std::string& column_a, const Tab
   return most;
 }
 
+Outcome run_ok(const scene::Scene& scene) {
+  Outcome r = run(scene);
+  EXPECT_TRUE(r.ok()) << r.summary.cause;
+  return r;
+}
+
 }  // namespace bough::support

@@ -59,6 +59,8 @@ void expect_sound_solutions(double backward_error, double unknowns);
 /// Runs a scene in memory on one thread, and expects small residuals of the linear solutions (expect_sound_solutions).
 /// Does not throw if the run fails: see ok() and summary.cause.
 Outcome run(const scene::Scene& scene, const run::ProgressCallback& progress = {});
+/// The same, and expects that the run ends well.
+Outcome run_ok(const scene::Scene& scene);
 
 /// Order p from errors at step sizes h and h / ratio: e = C h^p.
 double order_of(double coarse_error, double fine_error, double ratio = 2.0);

@@ -38,8 +38,8 @@ Law make_harmonic(double amplitude, double omega, double phase = 0.0, double off
 enum class Interpolation {
   linear,  ///< straight lines: the rate jumps at the knots
   cubic,   ///< cubic spline with not-a-knot ends: reproduces cubics, no jump inside; 3 knots a parabola, 2 a line
-  /// Cubics with slopes at the knots that keep the data's monotonicity (Fritsch, Carlson 1980): no overshoot; the second
-  /// derivative jumps at inner knots, the rate at the ends.
+  /// Cubics with slopes at the knots that keep the data's monotonicity (Fritsch, Carlson 1980): no overshoot; the
+  /// second derivative jumps at inner knots, the rate at the ends.
   monotone
 };
 

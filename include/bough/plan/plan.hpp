@@ -149,8 +149,8 @@ struct SignalPlan {
   int element = -1;  ///< of the block graph, after those of the directory
   int block = -1;
   /// coordinate, rate, effort: a joint without rows, whose only effort has the coordinate; that of `effort` has the
-  /// stiffness, rest and damping of all springs and dampers along it, counted along the motion. On the group of a reduced
-  /// model it is in ModelOn::readings.
+  /// stiffness, rest and damping of all springs and dampers along it, counted along the motion. On the group of a
+  /// reduced model it is in ModelOn::readings.
   elements::Joint reading;
   std::string joint_name;  ///< of the joint whose coordinate it is; else empty
   int joint = -1;          ///< index of that in Plan::joints
@@ -228,9 +228,9 @@ struct Plan {
                       ///< inertial frame
   std::vector<TurnedLawPlan> turned_laws;
   std::vector<SignalPlan> signals;
-  std::vector<int> signal_of_law;  ///< by law: index in signals; -1: none. Empty where signals is
-  bool signals_drive = false;      ///< a signal is a law of a row of a joint
-  bool signals_read_multipliers = false;
+  std::vector<int> signal_of_law;                    ///< by law: index in signals; -1: none. Empty where signals is
+  bool signals_drive = false;                        ///< a signal is a law of a row of a joint
+  bool signals_read_multipliers = false;             ///< a signal reads the force of a drive or of a row
   std::vector<std::vector<int>> signals_of_element;  ///< by global element id: those it reads. Empty where signals is
   std::vector<SensorPlan> sensors;
   std::vector<BodyPlan> bodies;  ///< in the scene's order

@@ -37,8 +37,8 @@ struct NodeUnknowns {
   int count_of(std::size_t node) const { return is_point_at(node) ? translations() : count; }
   bool is_length(int unknown) const { return component[static_cast<std::size_t>(unknown)] < 3; }
 
-  /// P^T x, without rotation for a point. The most frequent case, planar, is written out: a loop that stores components one by one makes later reads
-  /// of the whole vector wait for every store.
+  /// P^T x, without rotation for a point. The most frequent case, planar, is written out: a loop that stores components
+  /// one by one makes later reads of the whole vector wait for every store.
   motion::Vec6<double> expanded(const double* x, std::size_t node) const {
     if (motions == Motions::planar && !is_point_at(node)) {
       if (basis.empty())

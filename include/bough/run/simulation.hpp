@@ -44,8 +44,8 @@ class Simulation {
   double value(std::string_view column);
 
   /// Sets a signal of kind "input", from the present time on. The next step starts anew, as at a jump of a law, unless
-  /// the value is the one that the signal has. Returns empty, or why it cannot be set: no input has this name, the value
-  /// is not finite, or the simulation has ended.
+  /// the value is the one that the signal has. Returns empty, or why it cannot be set: no input has this name, the
+  /// value is not finite, or the simulation has ended.
   [[nodiscard]] std::string set_input(std::string_view signal, double value);
 
   /// A saved moment of this simulation: a copy of all data that steps change.

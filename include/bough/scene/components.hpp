@@ -17,6 +17,9 @@ std::vector<std::string> names_in_without();
 /// Names as in files.
 std::string to_string(FigureKind kind);
 std::string to_string(MeasureKind kind);
+std::string to_string(SolverForm form);
+/// Names of all forms, in the order of SolverForm.
+const std::vector<std::string>& solver_form_names();
 
 /// The figures that FigureKind and MeasureKind have in common come first in both enumerations, in the same order.
 static_assert(static_cast<int>(MeasureKind::period) == static_cast<int>(FigureKind::period));

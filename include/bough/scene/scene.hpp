@@ -230,8 +230,8 @@ enum class SignalKind : std::uint8_t {
   input,           ///< a number that a program sets between steps
 };
 
-/// A number that changes with the motion, for drives, efforts and loads. All signals at one instant belong to the same motion:
-/// none lags behind.
+/// A number that changes with the motion, for drives, efforts and loads. All signals at one instant belong to the same
+/// motion: none lags behind.
 struct Signal {
   std::string name;  ///< a word of formulas
   SignalKind kind = SignalKind::formula;

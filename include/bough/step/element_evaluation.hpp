@@ -27,7 +27,7 @@ ElementLengths measure_elements(const plan::Plan& plan);
 
 class ElementEvaluation {
  public:
-  /// held: may be null. Residuals go to `sums`, tangents to the storage of the solver of `linear`.
+  /// trimmed: may be null. Residuals go to `sums`, tangents to the storage of the solver of `linear`.
   ElementEvaluation(const plan::Plan& plan, const Instant& instant, const TrimmedElements* trimmed, ResidualSums& sums,
                     LinearSolution& linear, const tree::Walker& walker);
   ~ElementEvaluation();
