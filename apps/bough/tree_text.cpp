@@ -254,10 +254,11 @@ std::string tree_text(const Profile& p, const TextStyle& style, int most_rows) {
                      (p.threads == 1 ? " thread\n" : " threads\n");
   text += TreeText(p, style, most_rows).text();
   const records::StepProfile& s = p.step;
-  text += "Step " + seconds_text(s.total) + ": evaluate " + seconds_text(s.evaluate) + ", factor " +
-          seconds_text(s.factor) + ", solve " + seconds_text(s.forward + s.backward) + ", check " +
-          seconds_text(s.residual) + ", other loops " + seconds_text(s.other_chunks) + ", rest " +
-          seconds_text(s.rest) + "\n";
+  text += "Step " + seconds_text(s.total) + ": upward with factorization " + seconds_text(s.factor) + ", upward " +
+          seconds_text(s.forward) + ", downward " + seconds_text(s.backward) + ", check " + seconds_text(s.residual) +
+          ", evaluation alone " + seconds_text(s.evaluate) + ", loops over nodes and elements " +
+          seconds_text(s.other_chunks) + ", rest " + seconds_text(s.rest) + "\n" + rounded_text(s.walks, 3) +
+          " walks over the sub-domains a step, for " + rounded_text(s.solutions, 3) + " solutions\n";
   double worst = std::nan("");
   for (const records::LevelProfile& l : p.levels)
     if (!std::isnan(l.condition_most)) worst = std::isnan(worst) ? l.condition_most : std::max(worst, l.condition_most);

@@ -16,6 +16,7 @@ void write_times(JsonText& json, const records::SubdomainTimes& t) {
   json.member("condense", t.condense);
   json.member("forward", t.forward);
   json.member("backward", t.backward);
+  json.member("move", t.move);
   json.member("residual", t.residual);
   json.member("wait", t.wait);
   json.end_object();
@@ -81,8 +82,11 @@ void write_run(JsonText& json, const records::Profile& p) {
   json.member("other_chunks", p.step.other_chunks);
   json.member("rest", p.step.rest);
   json.member("factorizations", p.step.factorizations);
+  json.member("condensations", p.step.condensations);
   json.member("solutions", p.step.solutions);
+  json.member("checks", p.step.checks);
   json.member("evaluations", p.step.evaluations);
+  json.member("walks", p.step.walks);
   json.end_object();
 }
 

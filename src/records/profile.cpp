@@ -16,6 +16,7 @@ void add(SubdomainTimes& sum, const SubdomainTimes& t) {
   sum.condense += t.condense;
   sum.forward += t.forward;
   sum.backward += t.backward;
+  sum.move += t.move;
   sum.residual += t.residual;
   sum.wait = std::max(sum.wait, t.wait);
 }

@@ -29,14 +29,15 @@ Cell count_cell(std::int64_t count, std::string source) {
 std::vector<Cell> time_cells(const records::SubdomainTimes& t, const std::string& source) {
   std::vector<Cell> cells;
   const std::pair<double, const char*> parts[] = {
-      {t.evaluate, "evaluate"}, {t.assemble, "assemble"}, {t.factor, "factor"},     {t.condense, "condense"},
-      {t.forward, "forward"},   {t.backward, "backward"}, {t.residual, "residual"}, {t.wait, "wait"}};
+      {t.evaluate, "evaluate"}, {t.assemble, "assemble"}, {t.factor, "factor"},
+      {t.condense, "condense"}, {t.forward, "forward"},   {t.backward, "backward"},
+      {t.move, "move"},         {t.residual, "residual"}, {t.wait, "wait"}};
   for (const auto& [seconds, key] : parts) cells.push_back(seconds_cell(seconds, source + "/seconds/" + key));
   return cells;
 }
 
-const std::vector<std::string> time_head = {"evaluate", "assemble",        "factor", "condense",
-                                            "forward",  "back-substitute", "check",  "wait"};
+const std::vector<std::string> time_head = {"evaluate",        "assemble",   "factor", "condense", "forward",
+                                            "back-substitute", "move nodes", "check",  "wait"};
 
 void add_levels(Document& page, const Profile& p) {
   Table table{{"level", "sub-domains", "unknowns", "interface, most", "fill", "flops", "bytes"}, {}};
@@ -199,18 +200,25 @@ void add_alternatives(Document& page, const Profile& p) {
 
 void add_step(Document& page, const Profile& p) {
   const records::StepProfile& s = p.step;
-  Table table{
-      {"step", "evaluate", "factor", "forward", "back-substitute", "check", "other loops", "rest, serial",
-       "evaluations", "factorizations", "solutions"},
-      {{seconds_cell(s.total, "/step/total"), seconds_cell(s.evaluate, "/step/evaluate"),
-        seconds_cell(s.factor, "/step/factor"), seconds_cell(s.forward, "/step/forward"),
-        seconds_cell(s.backward, "/step/backward"), seconds_cell(s.residual, "/step/residual"),
-        seconds_cell(s.other_chunks, "/step/other_chunks"), seconds_cell(s.rest, "/step/rest"),
-        number_cell(s.evaluations, 3, "/step/evaluations"), number_cell(s.factorizations, 3, "/step/factorizations"),
-        number_cell(s.solutions, 3, "/step/solutions")}}};
+  Table table{{"step", "upward, factor", "upward", "downward", "check", "evaluation alone", "loops", "rest, serial"},
+              {{seconds_cell(s.total, "/step/total"), seconds_cell(s.factor, "/step/factor"),
+                seconds_cell(s.forward, "/step/forward"), seconds_cell(s.backward, "/step/backward"),
+                seconds_cell(s.residual, "/step/residual"), seconds_cell(s.evaluate, "/step/evaluate"),
+                seconds_cell(s.other_chunks, "/step/other_chunks"), seconds_cell(s.rest, "/step/rest")},
+               {number_cell(s.walks, 3, "/step/walks"),
+                number_cell(s.factorizations, 3, "/step/factorizations"),
+                number_cell(s.condensations, 3, "/step/condensations"),
+                number_cell(s.solutions, 3, "/step/solutions"),
+                number_cell(s.checks, 3, "/step/checks"),
+                number_cell(s.evaluations, 3, "/step/evaluations"),
+                {},
+                {}}}};
   table.caption =
       "One step: the median, the means of what its walks take (wall time), and the rest, which is what these leave of "
-      "the median: all that runs outside of the walks, recording included.";
+      "the median: all that runs outside of the walks, recording included. Second row: the number of walks over the "
+      "sub-domains a step, all of them and by kind. On the way up each sub-domain evaluates its elements and condenses "
+      "its right-hand side, with a factorization its matrix as well; on the way down it substitutes and moves its "
+      "nodes.";
   page.table(table);
 }
 

@@ -11,6 +11,10 @@ namespace bough::schedule {
 
 namespace {
 
+bool has_stages(tree::Work work) {
+  return work == tree::Work::factor || work == tree::Work::forward || work == tree::Work::backward;
+}
+
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr int most_threads = 1024;
 
@@ -139,7 +143,7 @@ struct TimedWalker::State {
     for (int v = 0; v < n; ++v) {
       const Record& r = w.records[at(v)];
       t.visit.push_back(static_cast<float>(r.end - r.begin));
-      if (work == tree::Work::factor)
+      if (has_stages(work))
         for (int k = 0; k < num_stages; ++k) t.stage[at(k)].push_back(static_cast<float>(r.stage[at(k)]));
       if (!is_upward) continue;
       std::uint64_t ready = 0;
@@ -157,7 +161,7 @@ struct TimedWalker::State {
     t.visit.reserve(most);
     t.wall.reserve(most / at(n));
     if (is_upward) t.wait.reserve(most);
-    if (work == tree::Work::factor)
+    if (has_stages(work))
       for (auto& s : t.stage) s.reserve(most);
   }
 

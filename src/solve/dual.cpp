@@ -98,12 +98,11 @@ void Dual::State::solve_scaled(const tree::Walker& walker, const double* b, doub
   }
 }
 
-FactorStatus Dual::factor(const tree::Walker& walker, Prepare prepare) {
+FactorStatus Dual::factor(const tree::Walker& walker) {
   State& s = *state_;
   s.status = {};
   if (s.scales_wanted) s.elements.eval_scales(s.scales, s.buffers.residual);
   s.scales_wanted = false;
-  run_prepare(s.tree, walker, prepare);
   ++s.counters.factorizations;
   if (const int block = find_not_finite_block(s.elements); block >= 0) {
     s.status.outcome = FactorOutcome::not_finite;

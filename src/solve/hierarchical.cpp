@@ -70,11 +70,35 @@ void Hierarchical::multiply(const tree::Walker& walker, const double* x, double*
   state_->elements.multiply(walker, x, y);
 }
 
-FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, const double* rhs) {
+SolverVisits Hierarchical::visits() const {
+  const State& s = *state_;
+  SolverVisits visits;
+  for (std::size_t g = 0; g < s.lanes.groups.size(); ++g) {
+    visits.parent.push_back(s.lanes.walk.subdomains[g].parent);
+    visits.batch_begin.push_back(s.lanes.groups[g].element_begin);
+  }
+  visits.batch_begin.push_back(static_cast<int>(s.lanes.batches.size()));
+  visits.of_block.assign(at(s.elements.graph().num_blocks()), 0);
+  for (int id = 0; id < s.tree.num_subdomains(); ++id) {
+    const tree::Subdomain& sub = s.tree.subdomains[at(id)];
+    for (tree::FrontId f = sub.front_begin; f < sub.front_end; ++f)
+      for (const int b : s.tree.blocks(s.front(f)).first(at(s.front(f).num_eliminated_blocks)))
+        visits.of_block[at(b)] = s.lanes.group_of_subdomain[at(id)];
+  }
+  return visits;
+}
+
+void Hierarchical::visit_all(const tree::Walker& walker, VisitWork work) const {
+  auto visit = [&work](int group) { work(group); };
+  walker.walk_up(state_->lanes.walk, tree::make_visit(visit, tree::Work::evaluate));
+}
+
+FactorStatus Hierarchical::factor(const tree::Walker& walker, VisitWork before, const double* rhs) {
   State& s = *state_;
   s.status = {};
   s.visit_rhs = rhs;
   if (s.scales_wanted) {
+    if (before) visit_all(walker, std::exchange(before, {}));
     s.elements.eval_scales(s.scales, s.residual);
     s.next_measurement = 0;
     s.check_all_symmetric();
@@ -86,20 +110,20 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
   }
   s.scales_wanted = false;
   s.factor_walker = walker;
-  auto visit = [&s, &prepare](int group) { s.factor_group(group, prepare); };
+  auto visit = [&s, &before](int group) { s.factor_group(group, before); };
   s.mark = walker.mark;
   walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
   if (s.is_symmetric()) {
     s.check_visits_symmetric();
     if (!s.is_symmetric()) {
-      prepare = {};  // the element matrices are present
+      before = {};  // the element matrices are present
       walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
     }
   }
   s.null_space.dimension = 0;
   s.null_space.took_vectors = false;
   while (!s.find_local_null_vectors()) {  // at most three times, see there
-    prepare = {};
+    before = {};
     walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
   }
   ++s.counters.factorizations;
@@ -119,7 +143,30 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, Prepare prepare, c
   s.counters.delayed_pivots += s.status.delayed_pivots;
   if (s.status.ok()) s.decide_rank();
   if (s.status.ok()) s.find_null_space();
+  // With dependent rows the right-hand side has to be made consistent first, and candidates of null vectors are computed
+  // in the storage of the condensed one.
+  s.is_condensed = rhs != nullptr && s.null_space.deficiency() == 0 && !s.null_space.took_vectors;
+  if (s.is_condensed) s.forward_group(static_cast<int>(s.lanes.groups.size()) - 1);
   return s.status;
+}
+
+void Hierarchical::condense(const tree::Walker& walker, VisitWork before, const double* rhs) {
+  State& s = *state_;
+  s.is_condensed = s.null_space.deficiency() == 0;
+  if (!s.is_condensed) {
+    if (before) visit_all(walker, before);
+    return;
+  }
+  s.visit_rhs = rhs;
+  s.mark = walker.mark;
+  auto forward = [&s, &before](int group) {
+    if (before) {
+      before(group);
+      s.mark(tree::Stage::evaluate);
+    }
+    s.forward_group(group);
+  };
+  walker.walk_up(s.lanes.walk, tree::make_visit(forward, tree::Work::forward));
 }
 
 void Hierarchical::State::check_all_symmetric() {
@@ -158,14 +205,29 @@ void Hierarchical::State::count_front(tree::FrontId f) {
   if (f + 1 < tree.num_fronts()) status.delayed_pivots += d.num_delayed();
 }
 
-SolveReport Hierarchical::finish(const tree::Walker& walker, const double* rhs, double* x) {
+SolveReport Hierarchical::substitute(const tree::Walker& walker, const double* rhs, double* x, bool check,
+                                     VisitWork after) {
   State& s = *state_;
+  SolveReport report;
+  if (s.is_condensed && !check) {
+    s.take(rhs, x, false);
+    s.visit_rhs = rhs;
+    s.back_substitute(walker, after);
+    ++s.counters.solutions;
+    return report;
+  }
   s.take(rhs, x, s.checks());
-  if (s.null_space.took_vectors) return s.solve_given(walker);  // the condensed right-hand side is lost
-  s.visit_rhs = rhs;
-  s.forward_group(static_cast<int>(s.lanes.groups.size()) - 1);
-  s.back_substitute(walker);
-  return s.check_solution(walker, {});
+  if (s.is_condensed) {
+    s.visit_rhs = rhs;
+    s.back_substitute(walker);
+    report = s.check_solution(walker, {});
+  } else {
+    report = s.solve_given(walker);
+  }
+  if (!after) return report;
+  auto visit = [&after](int group) { after(group); };
+  walker.walk_down(s.lanes.walk, tree::make_visit(visit));
+  return report;
 }
 
 SolveReport Hierarchical::solve(const tree::Walker& walker, const double* rhs, double* x) {

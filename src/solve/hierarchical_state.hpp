@@ -185,11 +185,12 @@ struct Hierarchical::State {
   FactorStatus status;
   SolverCounters counters;
   const double* visit_rhs = nullptr;  ///< right-hand side of the present walk
+  bool is_condensed = false;          ///< that of the last upward walk, in all visits
   tree::Mark mark;                    ///< of the present walk
   tree::Walker factor_walker;         ///< of the present factorization: distributes the work on large fronts
 
   // lane_walks.cpp, residual_walks.cpp: visits of groups
-  void factor_group(int group, const Prepare& prepare);
+  void factor_group(int group, const VisitWork& before);
   void forward_group(int group);
   void backward_group(int group);
   void residual_group(int group);
@@ -278,7 +279,7 @@ struct Hierarchical::State {
   void measure_matrices(const tree::Walker& walker);
   SolveReport solve_given(const tree::Walker& walker);
   SolveReport check_solution(const tree::Walker& walker, SolveReport report);
-  void back_substitute(const tree::Walker& walker);
+  void back_substitute(const tree::Walker& walker, const VisitWork& after = {});
   void solve_into_x(const tree::Walker& walker, const double* b);
   ElementStore::Errors eval_residual(const tree::Walker& walker, const double* b, SolveReport& report);
   void set_growth(double x_size, double rhs_size, SolveReport& report) const;

@@ -12,10 +12,9 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr int wide = lanes_wide;
 }  // namespace
 
-void Hierarchical::State::factor_group(int index, const Prepare& prepare) {
+void Hierarchical::State::factor_group(int index, const VisitWork& before) {
   const LaneGroup& group = lanes.groups[at(index)];
-  if (prepare.run != nullptr && group.element_begin < group.element_end)
-    prepare.run(prepare.context, index, group.element_begin, group.element_end);
+  if (before) before(index);
   mark(tree::Stage::evaluate);
   asymmetries[at(index)] = {};
   if (group.in_lanes) return with_scratch(index, [&] { factor_lanes(index); });

@@ -219,7 +219,7 @@ void Monolithic::multiply(const tree::Walker& walker, const double* x, double* y
 }
 std::vector<int> Monolithic::blocks_not_unique() const { return {}; }
 
-FactorStatus Monolithic::factor(const tree::Walker& walker, Prepare prepare) {
+FactorStatus Monolithic::factor(const tree::Walker& /*walker*/) {
   State& s = *state_;
   s.status = {};
   if (!available()) {
@@ -228,7 +228,6 @@ FactorStatus Monolithic::factor(const tree::Walker& walker, Prepare prepare) {
   }
   if (s.scales_wanted) s.elements.eval_scales(s.scales, s.residual);
   s.scales_wanted = false;
-  run_prepare(s.tree, walker, prepare);
   s.assemble(0.0);
   ++s.counters.factorizations;
   for (std::size_t k = 0; k < s.values.size(); ++k) {

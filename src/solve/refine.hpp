@@ -12,17 +12,6 @@
 
 namespace bough::solve {
 
-/// Evaluates the elements of all leaves, the first step of a factorization.
-inline void run_prepare(const tree::Tree& tree, const tree::Walker& walker, const Prepare& prepare) {
-  if (prepare.run == nullptr) return;
-  auto visit = [&](tree::SubdomainId id) {
-    const tree::Subdomain& sub = tree.subdomains[static_cast<std::size_t>(id)];
-    if (sub.is_leaf() && sub.element_begin < sub.element_end)
-      prepare.run(prepare.context, id, sub.element_begin, sub.element_end);
-  };
-  walker.walk_up(tree, tree::make_visit(visit));
-}
-
 /// The block of an unknown.
 inline int block_of_unknown(const tree::Tree& tree, std::int64_t unknown) {
   return static_cast<int>(std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), unknown) -

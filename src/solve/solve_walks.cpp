@@ -65,15 +65,22 @@ void Hierarchical::State::backward_front(tree::FrontId f) {
 /// first; then the multipliers of least norm are computed.
 void Hierarchical::State::solve_into_x(const tree::Walker& walker, const double* b) {
   visit_rhs = b;
+  is_condensed = false;
   auto forward = [this](int group) { forward_group(group); };
   walker.walk_up(lanes.walk, tree::make_visit(forward, tree::Work::forward));
   back_substitute(walker);
 }
 
-void Hierarchical::State::back_substitute(const tree::Walker& walker) {
+/// after: runs in the same visits. Precondition: no rows are dependent, or there is none.
+void Hierarchical::State::back_substitute(const tree::Walker& walker, const VisitWork& after) {
   const FrontData& root = fronts.back();
   for (int i = root.pivots; i < root.full; ++i) x[at(root.columns[i])] = 0.0;
-  auto backward = [this](int group) { backward_group(group); };
+  mark = walker.mark;
+  auto backward = [this, &after](int group) {
+    backward_group(group);
+    mark(tree::Stage::substitute);
+    if (after) after(group);
+  };
   walker.walk_down(lanes.walk, tree::make_visit(backward, tree::Work::backward));
   if (null_space.deficiency() > 0) project_multipliers();
 }

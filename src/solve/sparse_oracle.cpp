@@ -155,7 +155,7 @@ void SparseOracle::multiply(const tree::Walker& walker, const double* x, double*
 std::vector<int> SparseOracle::blocks_not_unique() const { return {}; }
 std::vector<InterfaceReport> SparseOracle::interfaces() const { return {}; }
 
-FactorStatus SparseOracle::factor(const tree::Walker& walker, Prepare prepare) {
+FactorStatus SparseOracle::factor(const tree::Walker& /*walker*/) {
   State& s = *state_;
   s.status = {};
   if (!available(s.library)) {
@@ -164,7 +164,6 @@ FactorStatus SparseOracle::factor(const tree::Walker& walker, Prepare prepare) {
   }
   if (s.scales_wanted) s.elements.eval_scales(s.scales, s.buffers.residual);
   s.scales_wanted = false;
-  run_prepare(s.tree, walker, prepare);
   ++s.counters.factorizations;
   if (const int block = find_not_finite_block(s.elements); block >= 0) {
     s.status.outcome = FactorOutcome::not_finite;

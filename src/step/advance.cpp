@@ -15,18 +15,16 @@ namespace {
 constexpr double largest_turn =
     2.8;  ///< rotation of a node in one step [rad]: below pi, where the logarithm is no longer unique
 
-/// Calls f(begin, end) for chunks of nodes, distributed over the threads, and returns the largest result.
-template <class F>
-double largest_of_chunks(System& system, F&& f) {
-  std::vector<double>& most = system.work().chunk_most;
-  auto chunk = [&](std::int64_t begin, std::int64_t end) {
-    most[static_cast<std::size_t>(begin / block_grain)] =
-        f(static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
-  };
-  const auto count = static_cast<std::int64_t>(system.plan().nodes.size());
-  most.assign(static_cast<std::size_t>((count + block_grain - 1) / block_grain), 0.0);
-  system.walker().for_each_chunk(count, block_grain, tree::make_chunk(chunk));
-  return most.empty() ? 0.0 : *std::max_element(most.begin(), most.end());
+/// Stores the largest of something in a range of eights.
+void note_most(System& system, std::int64_t begin, std::int64_t end, double most) {
+  std::vector<double>& all = system.work().eight_most;
+  std::fill(all.begin() + begin, all.begin() + end, 0.0);
+  all[static_cast<std::size_t>(begin)] = most;
+}
+double noted_most(System& system) {
+  double most = 0.0;
+  for (const double m : system.work().eight_most) most = std::max(most, m);
+  return most;
 }
 
 /// The formulas of generalized-alpha applied to all nodes, for a step that begins at `start`.
@@ -34,35 +32,49 @@ struct Integrator {
   AlphaRule rule;
   const State& start;
 
-  /// Applies a Newton correction: poses move, velocities and accelerations follow, multipliers grow.
-  std::optional<Trouble> correct(System& system, State& state, const double* x) const {
-    const plan::Plan& plan = system.plan();
-    if (plan.num_multipliers > 0 || !plan.signals.empty()) system.corrections().add_multipliers(state, x, 1.0);
-    follow_states(plan, state.signals);
-    return state.change_all([&]<class G>(NodesOn<G>& nodes) {
-      const double most = largest_of_chunks(system, [&](std::size_t begin, std::size_t end) {
-        return correct_nodes(rule, start.on<G>(), nodes, begin, end, system.places().increments(x));
-      });
-      return judge_turn(system, nodes, most);
+  System& system;
+
+  /// Applies a Newton correction to what a visit of the downward walk solves for: poses move, velocities and
+  /// accelerations follow, multipliers grow.
+  void apply_in_visit(int visit, State& state, const double* x) const {
+    start.visit([&]<class G>(const NodesOn<G>& from) {
+      NodesOn<G>& nodes = state.changing<G>();
+      system.corrections().apply_in_visit<G>(
+          visit, state, x, [&](std::int64_t begin, std::int64_t end, NodeChange<G>* changes) {
+            note_most(system, begin, end,
+                      correct_nodes(rule, from, nodes, *system.node_order(), static_cast<std::size_t>(begin),
+                                    static_cast<std::size_t>(end), system.places().increments(x), changes));
+          });
     });
+  }
+  /// Signals and the rates of states.
+  std::optional<Trouble> complete(State& state, const double* x) const {
+    system.corrections().add_signals(state, x, 1.0);
+    follow_states(system.plan(), state.signals);
+    return judge_turn(state);
   }
 
   /// Predictor. It extrapolates dv/dt by the polynomial, of order 0, 1 or 2, that would have been most accurate in the
   /// last step; a_{n+1} and the other quantities follow from it. Multipliers are extrapolated likewise: with an
   /// up-to-date Jacobian the first solution would find them from any initial value, but with a stale one their error
   /// contracts only slowly. Writes all of `state`, its nodes in one pass.
-  std::optional<Trouble> predict(System& system, State& state) const {
+  std::optional<Trouble> predict(State& state) const {
     state.step_size = start.step_size;
     system.corrections().predict_multipliers(start, state);
     state.turns = start.turns;
     predict_signals(system.plan(), state.signals);
-    return start.visit([&]<class G>(const NodesOn<G>& from) {
+    const NodeOrder& order = *system.node_order();
+    system.work().eight_most.resize(order.eights().size());
+    start.visit([&]<class G>(const NodesOn<G>& from) {
       NodesOn<G>& nodes = state.resize_as<G>(start);
-      const double most = largest_of_chunks(system, [&](std::size_t begin, std::size_t end) {
-        return predict_nodes(rule, start.predictor_order, from, nodes, begin, end);
-      });
-      return judge_turn(system, nodes, most);
+      auto some = [&](std::int64_t begin, std::int64_t end) {
+        note_most(system, begin, end,
+                  predict_nodes(rule, start.predictor_order, from, nodes, order, static_cast<std::size_t>(begin),
+                                static_cast<std::size_t>(end)));
+      };
+      system.walker().for_each_chunk(order.by_visit().count(), eight_grain, tree::make_chunk(some));
     });
+    return judge_turn(state);
   }
 
  private:
@@ -85,33 +97,35 @@ struct Integrator {
                                                 : from.value[i] + from.trend[i];
     follow_states(plan, now);
   }
-  /// Reports a node whose increment turns too far; `most` is the largest squared angle of a dq.
-  template <class G>
-  static std::optional<Trouble> judge_turn(const System& system, const NodesOn<G>& nodes, double most) {
-    if (most <= largest_turn * largest_turn) return std::nullopt;
-    const auto far = std::find_if(nodes.motion.begin(), nodes.motion.end(), [](const auto& node) {
-      return motion::VectorsOn<G>::template angular_square<double>(node.dq) > largest_turn * largest_turn;
+  /// Reports a node whose increment turns too far.
+  std::optional<Trouble> judge_turn(const State& state) const {
+    if (noted_most(system) <= largest_turn * largest_turn) return std::nullopt;
+    return state.visit([&]<class G>(const NodesOn<G>& nodes) -> std::optional<Trouble> {
+      const auto far = std::find_if(nodes.motion.begin(), nodes.motion.end(), [](const auto& node) {
+        return motion::VectorsOn<G>::template angular_square<double>(node.dq) > largest_turn * largest_turn;
+      });
+      if (far == nodes.motion.end()) return std::nullopt;
+      return Trouble{"'" + system.plan().nodes[static_cast<std::size_t>(far - nodes.motion.begin())].name +
+                     "' turns by nearly half a turn in one step"};
     });
-    if (far == nodes.motion.end()) return std::nullopt;
-    return Trouble{"'" + system.plan().nodes[static_cast<std::size_t>(far - nodes.motion.begin())].name +
-                   "' turns by nearly half a turn in one step"};
   }
 };
 
-/// Stores what the next step needs, in chunks of nodes: changes of accelerations for the predictor, the errors of the
+/// Stores what the next step needs: changes of accelerations for the predictor, the errors of the
 /// predictors, and the local error, which limits Newton's iteration. The moment arm converts angular to linear
 /// accelerations.
 void note_end(System& system, const AlphaRule& rule, const State& start, State& state) {
   const double arm = system.moment_arm(), per_length = 1.0 / system.plan().length_scale;
   std::vector<Workspace::StepEnd>& parts = system.work().step_ends;
-  const auto count = static_cast<std::int64_t>(system.plan().nodes.size());
-  parts.resize(static_cast<std::size_t>((count + block_grain - 1) / block_grain));
+  const std::int64_t count = system.node_order()->by_visit().count();
+  parts.resize(static_cast<std::size_t>((count + eight_grain - 1) / eight_grain));
   state.change_all([&]<class G>(NodesOn<G>& nodes) {
-    auto by_node = [&](std::int64_t begin, std::int64_t end) {
-      parts[static_cast<std::size_t>(begin / block_grain)] = finish_nodes(
-          rule, arm, per_length, start.on<G>(), nodes, static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
+    auto some = [&](std::int64_t begin, std::int64_t end) {
+      parts[static_cast<std::size_t>(begin / eight_grain)] =
+          finish_nodes(rule, arm, per_length, start.on<G>(), nodes, *system.node_order(),
+                       static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
     };
-    system.walker().for_each_chunk(count, block_grain, tree::make_chunk(by_node));
+    system.walker().for_each_chunk(count, eight_grain, tree::make_chunk(some));
   });
 }
 
@@ -132,22 +146,23 @@ void note_whole_end(System& system, const State& start, State& state) {
                                                                  : state.signals.value[i] - start.signals.value[i];
 }
 
-Integrator make_rule(const StepOptions& options, const State& start) {
+Integrator make_rule(System& system, const StepOptions& options, const State& start) {
   return {{make_alpha_coefficients(options.spectral_radius), start.step_size,
            FirstOrderRule(options.spectral_radius, start.step_size)},
-          start};
+          start,
+          system};
 }
 
 /// Sets the laws of `end_time` and the predicted state.
 std::optional<Trouble> enter(System& system, State& state, const Integrator& step, double end_time, laws::Side side) {
   if (auto t = system.set_time(end_time, side)) return t;
   state.time = end_time;
-  return step.predict(system, state);
+  return step.predict(state);
 }
 
 StepReport try_step(System& system, State& state, const State& start, const StepOptions& options, double end_time,
                     laws::Side side) {
-  const Integrator step = make_rule(options, start);
+  const Integrator step = make_rule(system, options, start);
   StepReport report;
   const auto fail = [&](const Trouble& t) {
     report.converged = false;
@@ -155,8 +170,7 @@ StepReport try_step(System& system, State& state, const State& start, const Step
     return report;
   };
   if (const auto t = enter(system, state, step, end_time, side)) return fail(*t);
-  report = iterate(system, state, options, make_goal(start), step.rule.slopes(),
-                   [&](State& s, const double* x) { return step.correct(system, s, x); });
+  report = iterate(system, state, options, make_goal(start), step.rule.slopes(), step);
   if (!report.converged) return report;
   if (const auto t = check_shape(system, state)) return fail(*t);
   note_end(system, step.rule, start, state);
@@ -170,12 +184,16 @@ StepReport try_step(System& system, State& state, const State& start, const Step
 std::optional<Trouble> predict(System& system, State& state, const StepOptions& options, double end_time,
                                elements::Slopes& slopes) {
   const State start = state;
-  const Integrator step = make_rule(options, start);
+  const Integrator step = make_rule(system, options, start);
   slopes = step.rule.slopes();
   return enter(system, state, step, end_time, laws::Side::left);
 }
 
 StepReport advance(System& system, State& state, const StepOptions& options, double end_time, laws::Side side) {
+  state.change_all([&](auto& nodes) {
+    for (auto* known : {&nodes.algorithmic, &nodes.acceleration_trend, &nodes.trend_change})
+      known->arrange(system.node_order());
+  });
   State& start = system.work().start;
   std::swap(state, start);
   StepReport report = try_step(system, state, start, options, end_time, side);

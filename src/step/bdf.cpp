@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "bough/motion/vectors_on.hpp"
@@ -201,25 +202,60 @@ void Bdf::follow_states(SignalValues& signals) const {
           (c_.c0 * signals.value[i] + c_.c1 * now[i] + c_.c2 * signals_last_[i] + c_.c3 * signals_earlier_[i]) / h_;
 }
 
-/// Sets velocities and accelerations by the formulas of the scheme, and dq = D / c0, the increment for which the
-/// tangents of elements are exact to first order.
-std::optional<Trouble> Bdf::follow(State& state) const {
-  follow_states(state.signals);
-  return state.change_all([&]<class G>(NodesOn<G>& nodes) -> std::optional<Trouble> {
-    using Vector = typename NodesOn<G>::Vector;
-    using On = motion::VectorsOn<G>;
-    const HistoryOn<G>& past = history<G>();
+/// Sets the velocity and the acceleration of a node by the formulas of the scheme, and dq = D / c0, the increment for
+/// which the tangents of elements are exact to first order.
+template <class G>
+void Bdf::follow_node(NodesOn<G>& nodes, std::size_t n) const {
+  using Vector = typename NodesOn<G>::Vector;
+  using On = motion::VectorsOn<G>;
+  const HistoryOn<G>& past = history<G>();
+  auto& node = nodes.motion[n];
+  const Vector D = increment(begin_.on<G>(), nodes, n);
+  node.v = On::template tangent_times<double>(D, Vector((1.0 / h_) * (c_.c0 * D + past.y[n])));
+  node.a = (1.0 / h_) * (c_.c0 * node.v + past.rates[n]);
+  node.dq = (1.0 / c_.c0) * D;
+}
+
+/// The first node that has turned too far, if there is one.
+std::optional<Trouble> Bdf::judge_turn(const State& state) const {
+  return state.visit([&]<class G>(const NodesOn<G>& nodes) -> std::optional<Trouble> {
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
-      auto& node = nodes.motion[n];
-      const Vector D = increment(begin_.on<G>(), nodes, n);
-      if (!(On::template angular_square<double>(D) <= largest_turn * largest_turn))
+      const typename NodesOn<G>::Vector D = c_.c0 * nodes.motion[n].dq;
+      if (!(motion::VectorsOn<G>::template angular_square<double>(D) <= largest_turn * largest_turn))
         return Trouble{"'" + system_.plan().nodes[n].name + "' turns by nearly a quarter of a turn in one step"};
-      node.v = On::template tangent_times<double>(D, Vector((1.0 / h_) * (c_.c0 * D + past.y[n])));
-      node.a = (1.0 / h_) * (c_.c0 * node.v + past.rates[n]);
-      node.dq = (1.0 / c_.c0) * D;
     }
     return std::nullopt;
   });
+}
+
+/// All nodes and states.
+std::optional<Trouble> Bdf::follow(State& state) const {
+  follow_states(state.signals);
+  state.change_all([&](auto& nodes) {
+    for (std::size_t n = 0; n < nodes.motion.size(); ++n) follow_node(nodes, n);
+  });
+  return judge_turn(state);
+}
+
+void Bdf::apply_in_visit(int visit, State& state, const double* x) const {
+  begin_.visit([&]<class G>(const NodesOn<G>&) {
+    NodesOn<G>& nodes = state.changing<G>();
+    system_.corrections().apply_in_visit<G>(
+        visit, state, x, [&](std::int64_t begin, std::int64_t end, NodeChange<G>* changes) {
+          const auto eights = std::span(system_.node_order()->eights())
+                                  .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+          move_nodes(nodes, eights, system_.places().increments(x), changes);
+          for (const NodeEight& eight : eights)
+            for (int l = 0; l < eight.count; ++l)
+              follow_node(nodes, static_cast<std::size_t>(eight.node[static_cast<std::size_t>(l)]));
+        });
+  });
+}
+
+std::optional<Trouble> Bdf::complete(State& state, const double* x) const {
+  system_.corrections().add_signals(state, x, 1.0);
+  follow_states(state.signals);
+  return judge_turn(state);
 }
 
 StepReport Bdf::take_step(State& state, const StepOptions& options, double end_time) {
@@ -230,10 +266,7 @@ StepReport Bdf::take_step(State& state, const StepOptions& options, double end_t
   predict_signals(state);
   if (const auto t = follow(state)) return failed(report, t->text);
   const elements::Slopes slopes{c_.c0 / h_, (c_.c0 / h_) * (c_.c0 / h_), false, c_.c0 / h_};
-  report = iterate(system_, state, options, {}, slopes, [&](State& s, const double* x) {
-    system_.corrections().move(s, x);
-    return follow(s);
-  });
+  report = iterate(system_, state, options, {}, slopes, *this);
   if (!report.converged) return report;
   if (const auto t = check_shape(system_, state)) return failed(report, t->text);
   std::swap(signals_earlier_, signals_last_);

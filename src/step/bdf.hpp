@@ -37,6 +37,10 @@ class Bdf final : public Integrator {
   StartReport change_step_size(State& state, const StepOptions& options, double step_size) override;
   StepReport advance(State& state, const StepOptions& options, double end_time) override;
 
+  /// A Newton correction of the step, as `iterate` asks for it.
+  void apply_in_visit(int visit, State& state, const double* x) const;
+  std::optional<Trouble> complete(State& state, const double* x) const;
+
  private:
   /// History of earlier steps, on the scene's group.
   template <class G>
@@ -65,6 +69,9 @@ class Bdf final : public Integrator {
   [[nodiscard]] std::optional<Trouble> finish_start(const State& state);
   StepReport take_step(State& state, const StepOptions& options, double end_time);
   [[nodiscard]] std::optional<Trouble> follow(State& state) const;
+  template <class G>
+  void follow_node(NodesOn<G>& nodes, std::size_t node) const;
+  std::optional<Trouble> judge_turn(const State& state) const;
   void predict(State& state);
   void predict_signals(State& state);
   void follow_states(SignalValues& signals) const;

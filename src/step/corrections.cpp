@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "element_parts.hpp"
 #include "moving_nodes.hpp"
@@ -14,26 +15,44 @@ int least_missed(const Misses& misses) {
 }
 
 Corrections::Corrections(const plan::Plan& plan, const UnknownPlaces& places, const Instant& instant,
-                         const ElementLengths& lengths, const tree::Walker& walker, CpuClock& clock, WorkCounts& counts)
+                         const ElementLengths& lengths, const LinearSolution& linear,
+                         std::shared_ptr<const NodeOrder> order, const tree::Walker& walker, CpuClock& clock,
+                         WorkCounts& counts)
     : plan_(plan),
       places_(places),
       instant_(instant),
       lengths_(lengths),
       walker_(walker),
       clock_(clock),
-      counts_(counts) {
+      counts_(counts),
+      order_(std::move(order)),
+      multipliers_(places.multipliers()) {
   if (!plan.is_dynamic) motion_tree_ = make_motion_tree(plan);
-  find_pairs();
+  find_pairs(linear);
+  std::vector<int> visit_of_unknown(places.size());
+  for (int b = 0; b < places.num_blocks(); ++b)
+    std::fill_n(visit_of_unknown.begin() + places.block_begin(b), places.block_size(b),
+                linear.visits().of_block[static_cast<std::size_t>(b)]);
+  const auto visit = [&](const UnknownPlaces::Multiplier& m) { return visit_of_unknown[m.unknown]; };
+  std::stable_sort(multipliers_.begin(), multipliers_.end(),
+                   [&](const auto& a, const auto& b) { return visit(a) < visit(b); });
+  std::vector<int> of_multiplier;
+  for (const UnknownPlaces::Multiplier& m : multipliers_) of_multiplier.push_back(visit(m));
+  multipliers_by_visit_ = VisitRanges(of_multiplier, linear.visits().count());
+  plan.with_group([&]<class G>() { changes_.emplace<ChangesOn<G>>(plan.nodes.size(), NodeChange<G>{}); });
 }
 
 Corrections::~Corrections() = default;
 
-void Corrections::find_pairs() {
+/// Element after element in the order of the visits that have their matrices; no eight pairs are those of two visits.
+void Corrections::find_pairs(const LinearSolution& linear) {
   int lane = elements::num_lanes;
-  const auto add = [&](int a, int b, double per_length) {
-    if (lane == elements::num_lanes) {
+  std::vector<int> of_pairs;
+  const auto add = [&](int visit, int a, int b, double per_length) {
+    if (lane == elements::num_lanes || of_pairs.back() != visit) {
       lane = 0;
       pairs_.emplace_back();
+      of_pairs.push_back(visit);
     }
     PairLanes& pairs = pairs_.back();
     for (int l = lane++; l < elements::num_lanes; ++l) {
@@ -42,34 +61,81 @@ void Corrections::find_pairs() {
       pairs.per_length.set(l, per_length);
     }
   };
-  for (std::size_t id = 0; id < plan_.directory.size(); ++id)
-    plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
-      const double per_length = 1.0 / lengths_.of_element[id];
-      const int first = e.ports[0].node == elements::ground ? -1 : e.ports[0].node;
-      constexpr int num_ports = std::decay_t<decltype(e)>::num_ports;
-      if (num_ports == 1 && first >= 0) add(-1, first, per_length);
-      for (int p = 1; p < num_ports; ++p)
-        if (e.ports[p].node != elements::ground) add(first, e.ports[p].node, per_length);
-    });
-  chunk_max_.resize((pairs_.size() + pair_grain - 1) / pair_grain);
+  for (int v = 0; v < linear.visits().count(); ++v)
+    for (const int element : linear.elements_of_visit(v)) {
+      const auto id = static_cast<std::size_t>(element);
+      if (id >= plan_.directory.size()) continue;  // the equation of a signal
+      plan::with_element(plan_.elements, plan_.directory[id], [&](const auto& e) {
+        const double per_length = 1.0 / lengths_.of_element[id];
+        const int first = e.ports[0].node == elements::ground ? -1 : e.ports[0].node;
+        constexpr int num_ports = std::decay_t<decltype(e)>::num_ports;
+        if (num_ports == 1 && first >= 0) add(v, -1, first, per_length);
+        for (int p = 1; p < num_ports; ++p)
+          if (e.ports[p].node != elements::ground) add(v, first, e.ports[p].node, per_length);
+      });
+    }
+  pairs_by_visit_ = VisitRanges(of_pairs, linear.visits().count());
+  pair_sizes_.assign(pairs_.size(), 0.0);
 }
 
-double Corrections::relative_size(const State& state, const double* x) const {
-  state.visit([&](const auto& nodes) {
-    auto by_pair = [&](std::int64_t begin, std::int64_t end) {
-      const std::span<const PairLanes> some(pairs_.data() + begin, static_cast<std::size_t>(end - begin));
-      chunk_max_[static_cast<std::size_t>(begin / pair_grain)] = largest_change(nodes, some, places_.increments(x));
-    };
-    walker_.for_each_chunk(static_cast<std::int64_t>(pairs_.size()), pair_grain, tree::make_chunk(by_pair));
-  });
+template <class G>
+void Corrections::measure_pairs(std::int64_t begin, std::int64_t end) {
+  const std::span<const PairLanes> some(pairs_.data() + begin, static_cast<std::size_t>(end - begin));
+  std::fill(pair_sizes_.begin() + begin + 1, pair_sizes_.begin() + end, 0.0);
+  pair_sizes_[static_cast<std::size_t>(begin)] = largest_change(some, std::get<ChangesOn<G>>(changes_).data());
+}
+#define BOUGH_INSTANTIATE(G) template void Corrections::measure_pairs<G>(std::int64_t, std::int64_t);
+BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
+#undef BOUGH_INSTANTIATE
+
+double Corrections::applied_size() const {
   double most = 0.0;
-  for (double size : chunk_max_) most = std::max(most, size);
+  for (double size : pair_sizes_) most = std::max(most, size);
   return std::sqrt(most);
 }
 
+double Corrections::relative_size(const State& state, const double* x) {
+  state.visit([&]<class G>(const NodesOn<G>& nodes) {
+    NodeChange<G>* const changes = std::get<ChangesOn<G>>(changes_).data();
+    const std::span<const NodeEight> eights = order_->eights();
+    auto note = [&](std::int64_t begin, std::int64_t end) {
+      note_changes(nodes, eights.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)),
+                   places_.increments(x), changes);
+    };
+    walker_.for_each_chunk(static_cast<std::int64_t>(eights.size()), eight_grain, tree::make_chunk(note));
+    auto measure = [this](std::int64_t begin, std::int64_t end) { measure_pairs<G>(begin, end); };
+    walker_.for_each_chunk(static_cast<std::int64_t>(pairs_.size()), pair_grain, tree::make_chunk(measure));
+  });
+  return applied_size();
+}
+
+double Corrections::apply(State& state, const double* x) {
+  PhaseTimer timer{clock_, counts_.update};
+  const double change = relative_size(state, x);
+  state.change_all([&]<class G>(NodesOn<G>& nodes) {
+    const std::span<const NodeEight> eights = order_->eights();
+    auto move = [&](std::int64_t begin, std::int64_t end) {
+      move_nodes<G>(nodes, eights.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)),
+                    places_.increments(x), nullptr);
+    };
+    walker_.for_each_chunk(static_cast<std::int64_t>(eights.size()), eight_grain, tree::make_chunk(move));
+  });
+  add_multipliers(state, x, 1.0);
+  return change;
+}
+
+void Corrections::add_multipliers(State& state, const double* x, double factor, std::int64_t begin,
+                                  std::int64_t end) const {
+  for (auto m = static_cast<std::size_t>(begin); m < static_cast<std::size_t>(end); ++m)
+    state.multipliers[multipliers_[m].multiplier] += factor * x[multipliers_[m].unknown];
+}
+
 void Corrections::add_multipliers(State& state, const double* x, double factor) const {
-  for (const UnknownPlaces::Multiplier& at : places_.multipliers())
-    state.multipliers[at.multiplier] += factor * x[at.unknown];
+  add_multipliers(state, x, factor, 0, multipliers_by_visit_.count());
+  add_signals(state, x, factor);
+}
+
+void Corrections::add_signals(State& state, const double* x, double factor) const {
   for (std::size_t i = 0; i < places_.signals().size(); ++i) state.signals.value[i] += factor * x[places_.signals()[i]];
 }
 
@@ -96,23 +162,6 @@ void Corrections::note_multipliers(const State& start, State& state) const {
     state.multiplier_trend_change[m] = of_trend;
   }
   state.multiplier_order = least_missed(misses);
-}
-
-void Corrections::move(State& state, const double* x) const {
-  state.change_all([&](auto& nodes) {
-    auto by_node = [&](std::int64_t begin, std::int64_t end) {
-      move_nodes(nodes, static_cast<std::size_t>(begin), static_cast<std::size_t>(end), places_.increments(x));
-    };
-    walker_.for_each_chunk(static_cast<std::int64_t>(nodes.motion.size()), block_grain, tree::make_chunk(by_node));
-  });
-  if (plan_.num_multipliers > 0 || !plan_.signals.empty()) add_multipliers(state, x, 1.0);
-}
-
-double Corrections::apply(State& state, const double* x) {
-  PhaseTimer timer{clock_, counts_.update};
-  const double change = relative_size(state, x);
-  move(state, x);
-  return change;
 }
 
 }  // namespace bough::step

@@ -64,7 +64,7 @@ ElementEvaluation::ElementEvaluation(const plan::Plan& plan, const Instant& inst
     : plan_(plan), instant_(instant), trimmed_(trimmed), sums_(sums), linear_(linear), walker_(walker) {
   plan.with_group([&]<class G>() {
     auto lanes = std::make_unique<LaneBatches<G>>();
-    lanes->make(plan, linear.solver().batches(), trimmed);
+    lanes->make(plan, linear.solver().batches(), linear.visits(), trimmed);
     lanes_ = std::move(lanes);
   });
 }
@@ -133,9 +133,22 @@ void ElementEvaluation::evaluate_alone(std::size_t id, const State& state, const
   });
 }
 
-void ElementEvaluation::evaluate(const State& state, const elements::Slopes& slopes, bool tangent) {
+void ElementEvaluation::begin(const State& state, const elements::Slopes& slopes, bool tangent) {
   if (tangent) linear_.begin_matrices(linear_.takes_symmetric_parts());
-  state.visit([&]<class G>(const NodesOn<G>&) { evaluate_on(state, instant_.field_on<G>(state, slopes), tangent); });
+  state_ = &state;
+  with_tangents_ = tangent;
+  state.visit([&]<class G>(const NodesOn<G>&) { field_.emplace<FieldOf<G>>(instant_.field_on<G>(state, slopes)); });
+}
+
+void ElementEvaluation::evaluate_visit(int visit) {
+  std::visit(
+      [&]<class G>(const std::unique_ptr<LaneBatches<G>>& lanes) {
+        const FieldOf<G>& field = std::get<FieldOf<G>>(field_);
+        lanes->by_visit().for_each(walker_, visit, batch_grain, [&](std::int64_t begin, std::int64_t end) {
+          evaluate_batches<G>(field, begin, end);
+        });
+      },
+      lanes_);
 }
 
 void ElementEvaluation::evaluate_as_seen(const State& state) {
@@ -182,23 +195,19 @@ void ElementEvaluation::symmetrise(const solve::ElementBatch& batch) {
 }
 
 template <class G>
-void ElementEvaluation::evaluate_on(const State& state, const elements::FieldOn<G, double>& field, bool tangent) {
+void ElementEvaluation::evaluate_batches(const elements::FieldOn<G, double>& field, std::int64_t begin,
+                                         std::int64_t end) {
   const LaneBatches<G>& lanes = *std::get<LanesOn<G>>(lanes_);
   const std::span<const solve::ElementBatch> batches = lanes.batches();
-  const ElementResults results{sums_.parts(), sums_.begins(), tangent ? &linear_.solver() : nullptr};
-  auto by_batch = [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t k = begin; k < end; ++k) {
-      const auto batch = static_cast<std::size_t>(k);
-      if (lanes.holds(batch))
-        lanes.evaluate(batch, state, field, results);
-      else
-        for (int id : batches[batch].element)
-          if (id >= 0) evaluate_alone(static_cast<std::size_t>(id), state, field, results);
-      if (tangent && linear_.takes_symmetric_parts()) symmetrise(batches[batch]);
-    }
-  };
-  walker_.for_each_chunk(static_cast<std::int64_t>(batches.size()), batch_grain,
-                         tree::make_chunk(by_batch, tree::Work::evaluate));
+  const ElementResults results{sums_.parts(), sums_.begins(), with_tangents_ ? &linear_.solver() : nullptr};
+  for (auto batch = static_cast<std::size_t>(begin); batch < static_cast<std::size_t>(end); ++batch) {
+    if (lanes.holds(batch))
+      lanes.evaluate(batch, *state_, field, results);
+    else
+      for (int id : batches[batch].element)
+        if (id >= 0) evaluate_alone(static_cast<std::size_t>(id), *state_, field, results);
+    if (with_tangents_ && linear_.takes_symmetric_parts()) symmetrise(batches[batch]);
+  }
 }
 
 solve::ConstElementView ElementEvaluation::matrix_of(int element, std::vector<std::int64_t>& unknowns) const {

@@ -12,9 +12,8 @@ namespace bough::step {
 /// read its efforts. A line load on a beam of four nodes has 25.
 inline constexpr std::size_t most_unknowns = 26;
 
-/// Numbers of items that a task takes at once; chunks do not depend on the number of threads. Pairs of nodes are
-/// counted by eights.
-inline constexpr std::int64_t element_grain = 256, block_grain = 64, pair_grain = 16, batch_grain = 8;
+/// Numbers of items that a task takes at once; chunks do not depend on the number of threads.
+inline constexpr std::int64_t element_grain = 256, block_grain = 64, batch_grain = 8;
 
 inline constexpr int least_lanes = 3;  ///< elements that are evaluated as eight
 

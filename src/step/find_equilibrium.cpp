@@ -19,9 +19,9 @@ void rest(System& system, State& state) {
   system.signals().follow_motion(state);
   for (auto* known : {&state.signals.rate, &state.signals.algorithmic, &state.signals.trend})
     std::fill(known->begin(), known->end(), 0.0);
-  state.change_all([](auto& nodes) {
+  state.change_all([&](auto& nodes) {
     for (auto* known : {&nodes.algorithmic, &nodes.acceleration_trend, &nodes.trend_change})
-      known->assign_zero(nodes.motion.size());
+      known->assign_zero(system.node_order());
   });
   std::fill(state.multiplier_trend.begin(), state.multiplier_trend.end(), 0.0);
   std::fill(state.multiplier_trend_change.begin(), state.multiplier_trend_change.end(), 0.0);

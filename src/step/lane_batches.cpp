@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "element_parts.hpp"
 
@@ -65,7 +66,7 @@ void LaneBatches<G>::place_rows(const solve::ElementBatch& batch, int num_rows, 
 }
 
 template <class G>
-void LaneBatches<G>::gather_singles() {
+void LaneBatches<G>::gather_singles(const std::vector<int>& visit_of_batch, const solve::SolverVisits& visits) {
   constexpr std::size_t near_by = 256;  ///< distance in batches within which elements share the cache
   struct Open {
     std::size_t batch = 0;
@@ -91,7 +92,13 @@ void LaneBatches<G>::gather_singles() {
     if (present == 0 || present >= least_lanes) continue;
     batch.element.fill(-1);
     batch.stride = 1;  // its lanes no longer match those of the solver
-    std::erase_if(open, [b](const Open& o) { return b - o.batch > near_by; });
+    const auto is_below = [&](int lower, int upper) {
+      while (lower >= 0 && lower < upper) lower = visits.parent[static_cast<std::size_t>(lower)];
+      return lower == upper;
+    };
+    std::erase_if(open, [&](const Open& o) {
+      return b - o.batch > near_by || !is_below(visit_of_batch[o.batch], visit_of_batch[b]);
+    });
     std::size_t staying = 0;
     for (const int* id = loose.data(); id != loose.data() + present; ++id) {
       const plan::ElementPlace place = plan_->directory[static_cast<std::size_t>(*id)];
@@ -130,17 +137,27 @@ bool LaneBatches<G>::reads_signals(int element) const {
 
 template <class G>
 void LaneBatches<G>::make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches,
-                          const TrimmedElements* trimmed) {
+                          const solve::SolverVisits& visits, const TrimmedElements* trimmed) {
   plan_ = &plan;
   trimmed_ = trimmed;
   batches_.assign(batches.begin(), batches.end());
   for (solve::ElementBatch& batch : batches_)
     for (int& id : batch.element)
       if (id >= 0 && leaves_out(id)) id = -1;
-  gather_singles();
-  std::erase_if(batches_, [](const solve::ElementBatch& b) {
-    return std::all_of(b.element.begin(), b.element.end(), [](int id) { return id < 0; });
-  });
+  std::vector<int> visit_of_batch(batches_.size()), of_kept;
+  for (int v = 0; v < visits.count(); ++v)
+    for (int b = visits.batch_begin[static_cast<std::size_t>(v)];
+         b < visits.batch_begin[static_cast<std::size_t>(v) + 1]; ++b)
+      visit_of_batch[static_cast<std::size_t>(b)] = v;
+  gather_singles(visit_of_batch, visits);
+  std::vector<solve::ElementBatch> kept;
+  for (std::size_t b = 0; b < batches_.size(); ++b) {
+    if (std::all_of(batches_[b].element.begin(), batches_[b].element.end(), [](int id) { return id < 0; })) continue;
+    kept.push_back(batches_[b]);
+    of_kept.push_back(visit_of_batch[b]);
+  }
+  batches_ = std::move(kept);
+  by_visit_ = VisitRanges(of_kept, visits.count());
   slots_.assign(batches_.size(), {});
   uniform_.clear();
   for (std::size_t b = 0; b < batches_.size(); ++b) {

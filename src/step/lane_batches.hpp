@@ -14,6 +14,7 @@
 #include "bough/solve/any_solver.hpp"
 #include "bough/solve/element_view.hpp"
 #include "bough/step/state.hpp"
+#include "bough/step/visit_ranges.hpp"
 #include "trimmed_elements.hpp"
 
 namespace bough::step {
@@ -52,15 +53,18 @@ class LaneBatches {
   using Field = elements::FieldOn<G, double>;
 
   /// Starts from the batches of the solver. Elements of batches with fewer than `least_lanes` elements are regrouped
-  /// with elements of the same kind from nearby batches, in the first of these. A batch is evaluated in lanes if it
+  /// with elements of the same kind from nearby batches, in the first of these, if that belongs to the same visit of the
+  /// solver's walks or to one below it, whose work comes before. A batch is evaluated in lanes if it
   /// then holds at least `least_lanes` elements that differ only in the values of their data. Joints that hold nodes at
   /// rest are omitted, since the solver does not see them.
-  void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches, const TrimmedElements* trimmed);
+  void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches, const solve::SolverVisits& visits,
+            const TrimmedElements* trimmed);
 
   /// Sets the motions of frames of prescribed motion, equal in all lanes. Needed only if the scene has such frames.
   void set_frames(const plan::FrameMotions& frames);
 
   std::span<const solve::ElementBatch> batches() const { return batches_; }
+  const VisitRanges& by_visit() const { return by_visit_; }
   bool holds(std::size_t batch) const { return !slots_.empty() && slots_[batch].index >= 0; }
 
   /// Computes residuals, magnitudes and (if `to` has a solver) tangents of all elements of a batch. Does not allocate.
@@ -84,7 +88,7 @@ class LaneBatches {
     int array, index;
     std::size_t element;  ///< one of the eight, in the plan's array
   };
-  void gather_singles();
+  void gather_singles(const std::vector<int>& visit_of_batch, const solve::SolverVisits& visits);
   void place_rows(const solve::ElementBatch& batch, int num_rows, Slot& slot);
   /// Whether the solver sees nothing of an element.
   bool leaves_out(int element) const;
@@ -99,6 +103,7 @@ class LaneBatches {
   const plan::Plan* plan_ = nullptr;
   const TrimmedElements* trimmed_ = nullptr;
   std::vector<solve::ElementBatch> batches_;
+  VisitRanges by_visit_;
   std::vector<Slot> slots_;
   std::vector<Uniform> uniform_;
   std::vector<int> places_;  ///< apart from the elements, which are large, so that they stay in the caches

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "make_solver.hpp"
 
@@ -36,7 +37,22 @@ LinearSolution::LinearSolution(const plan::Plan& plan, const scene::Solver& solv
       counts_(counts),
       tree_(std::make_unique<tree::Tree>(tree::make_tree(plan.graph, make_tree_options(plan, solver)))),
       solver_(make_solver(plan, *tree_, solver)),
-      takes_symmetric_parts_(plan.took("symmetric")) {}
+      visits_(solver_->visits(plan.graph.num_blocks())),
+      takes_symmetric_parts_(plan.took("symmetric")) {
+  element_begin_.push_back(0);
+  const std::span<const solve::ElementBatch> batches = std::as_const(*solver_).batches();
+  for (std::size_t v = 0; v < visits_.parent.size(); ++v) {
+    for (int b = visits_.batch_begin[v]; b < visits_.batch_begin[v + 1]; ++b)
+      for (const int id : batches[static_cast<std::size_t>(b)].element)
+        if (id >= 0) elements_.push_back(id);
+    element_begin_.push_back(elements_.size());
+  }
+}
+
+std::span<const int> LinearSolution::elements_of_visit(int visit) const {
+  const auto v = static_cast<std::size_t>(visit);
+  return {elements_.data() + element_begin_[v], element_begin_[v + 1] - element_begin_[v]};
+}
 
 void LinearSolution::begin_matrices(bool are_symmetric) {
   solver_->trust_symmetry(are_symmetric);
@@ -54,7 +70,8 @@ void LinearSolution::note_service(int solutions) {
   is_worn_ = solutions * ++iterations_served_ >= service_cost_;
 }
 
-std::optional<Trouble> LinearSolution::factor(bool rescale, const elements::Slopes& slopes) {
+std::optional<Trouble> LinearSolution::factor(bool rescale, const elements::Slopes& slopes, solve::VisitWork before,
+                                              const double* rhs) {
   PhaseTimer timer{clock_, counts_.factor};
   const bool is_like_the_last = !rescale && has_factor(slopes);
   if (!is_like_the_last) solver_->rescale();
@@ -66,7 +83,7 @@ std::optional<Trouble> LinearSolution::factor(bool rescale, const elements::Slop
   iterations_served_ = 0;
   is_worn_ = false;
   ++counts_.factorizations;
-  const solve::FactorStatus status = solver_->factor(walker_);
+  const solve::FactorStatus status = solver_->factor(walker_, before, rhs);
   if (status.ok()) {
     factored_ = slopes;
     is_factored_ = is_of_matrices_ = true;
@@ -104,15 +121,36 @@ std::string LinearSolution::explain_singular(const solve::FactorStatus& status) 
   return text + ", or it is held some 1e16 times more softly than its neighbours hold each other";
 }
 
+void LinearSolution::condense(solve::VisitWork before, const double* rhs) {
+  PhaseTimer timer{clock_, counts_.assemble};
+  solver_->condense(walker_, before, rhs);
+}
+
+bool LinearSolution::may_skip_check() {
+  return is_trusted_ && solver_->hierarchical() != nullptr && ++unchecked_ < check_every;
+}
+
 std::optional<Trouble> LinearSolution::solve(const double* rhs, double* x, bool check) {
   PhaseTimer timer{clock_, counts_.solve};
   ++counts_.solutions;
-  if (!check && is_trusted_ && solver_->hierarchical() != nullptr && ++unchecked_ < check_every) {
+  if (!check && may_skip_check()) {
     static_cast<void>(solver_->solve(walker_, rhs, x, false));
     return std::nullopt;  // the caller notices a solution that is not finite by the size of the correction
   }
+  return judge(solver_->solve(walker_, rhs, x));
+}
+
+std::optional<Trouble> LinearSolution::substitute(const double* rhs, double* x, solve::VisitWork after) {
+  PhaseTimer timer{clock_, counts_.solve};
+  ++counts_.solutions;
+  const bool check = !may_skip_check();
+  const solve::SolveReport solution = solver_->substitute(walker_, rhs, x, check, after);
+  return check ? judge(solution) : std::nullopt;
+}
+
+std::optional<Trouble> LinearSolution::judge(const solve::SolveReport& solution) {
   unchecked_ = 0;
-  last_solution_ = solver_->solve(walker_, rhs, x);
+  last_solution_ = solution;
   is_trusted_ = last_solution_.backward_error <= good && last_solution_.refinement_steps == 0;
   if (!last_solution_.interface_converged)
     return Trouble{"the iteration on the interface problem gave up after " +

@@ -100,35 +100,35 @@ const Pack* numbers_of(const Mover<G, Pack>& m) {
 }
 /// Loads poses (and quaternions in space) of up to eight nodes into lanes.
 template <class G>
-void gather_pose(const NodesOn<G>& nodes, std::size_t from, std::size_t count, Mover<G, Pack>& m) {
-  gather<NodeNumbers<G>::pose>(nodes.motion.data(), from, count, numbers_of(m));
-  if constexpr (std::is_same_v<G, Se3>) gather<4>(nodes.rotation.data(), from, count, &m.q.w);
+void gather_pose(const NodesOn<G>& nodes, const NodeEight& eight, Mover<G, Pack>& m) {
+  gather<NodeNumbers<G>::pose>(nodes.motion.data(), eight, numbers_of(m));
+  if constexpr (std::is_same_v<G, Se3>) gather<4>(nodes.rotation.data(), eight, &m.q.w);
 }
 /// Loads poses, velocities and accelerations.
 template <class G>
-void gather_motion(const NodesOn<G>& nodes, std::size_t from, std::size_t count, Mover<G, Pack>& m) {
-  gather<NodeNumbers<G>::dq>(nodes.motion.data(), from, count, numbers_of(m));
-  if constexpr (std::is_same_v<G, Se3>) gather<4>(nodes.rotation.data(), from, count, &m.q.w);
+void gather_motion(const NodesOn<G>& nodes, const NodeEight& eight, Mover<G, Pack>& m) {
+  gather<NodeNumbers<G>::dq>(nodes.motion.data(), eight, numbers_of(m));
+  if constexpr (std::is_same_v<G, Se3>) gather<4>(nodes.rotation.data(), eight, &m.q.w);
 }
 /// Stores the first `numbers` numbers of each node.
 template <int numbers, class G>
-void scatter_motion(const Mover<G, Pack>& m, NodesOn<G>& nodes, std::size_t from, std::size_t count) {
-  scatter<numbers>(numbers_of(m), nodes.motion.data(), from, count);
-  if constexpr (std::is_same_v<G, Se3>) scatter<4>(&m.q.w, nodes.rotation.data(), from, count);
+void scatter_motion(const Mover<G, Pack>& m, NodesOn<G>& nodes, const NodeEight& eight) {
+  scatter<numbers>(numbers_of(m), nodes.motion.data(), eight);
+  if constexpr (std::is_same_v<G, Se3>) scatter<4>(&m.q.w, nodes.rotation.data(), eight);
 }
 static_assert(sizeof(Quaternion<double>) == 4 * sizeof(double) && offsetof(Quaternion<double>, w) == 0);
 
 constexpr double nothing[12] =
     {};  ///< zeros: the increment of a node without unknowns, and the data of the fixed ground
 
-/// Increments of eight nodes in lanes; zero where node(lane) < 0 or the node has no unknowns.
-template <class G, class Node>
-VectorLanes<G> gather_increments(const NodeIncrements& increments, Node&& node) {
+/// Increments of eight nodes in lanes; zero where a node has no unknowns.
+template <class G>
+VectorLanes<G> gather_increments(const NodeIncrements& increments, const NodeEight& eight) {
   const double* from[nodes_in_lanes];
   double of_points[nodes_in_lanes][G::dof];
   for (std::size_t l = 0; l < nodes_in_lanes; ++l) {
-    const int n = node(l);
-    const std::int64_t unknown = n < 0 ? -1 : increments.unknown_begin[n];
+    const int n = eight.node[l];
+    const std::int64_t unknown = increments.unknown_begin[n];
     from[l] = unknown < 0 ? nothing : increments.x + unknown;
     if constexpr (G::turns)
       if (unknown >= 0 && increments.is_point != nullptr && increments.is_point[n] != 0) {
@@ -141,25 +141,17 @@ VectorLanes<G> gather_increments(const NodeIncrements& increments, Node&& node) 
   return eta;
 }
 
-/// Calls f(first, count) for consecutive groups of up to eight nodes.
-template <class F>
-void by_eights(std::size_t begin, std::size_t end, F&& f) {
-  for (std::size_t n = begin; n < end; n += nodes_in_lanes) f(n, std::min(nodes_in_lanes, end - n));
-}
-
-/// Up to eight nodes with their poses and dq.
+/// Eight nodes with their poses and dq.
 template <class G>
-Mover<G, Pack> gather_moving(const NodesOn<G>& nodes, std::size_t first, std::size_t count) {
+Mover<G, Pack> gather_moving(const NodesOn<G>& nodes, const NodeEight& eight) {
   Mover<G, Pack> m;
-  gather_pose(nodes, first, count, m);
-  gather<G::dof>(nodes.motion.data(), first, count, &m.dq[0], NodeNumbers<G>::dq);
+  gather_pose(nodes, eight, m);
+  gather<G::dof>(nodes.motion.data(), eight, &m.dq[0], NodeNumbers<G>::dq);
   return m;
 }
-/// Moves them by their unknowns. Where poses determine dq, only its angle in a plane follows.
+/// Moves them by their increments. Where poses determine dq, only its angle in a plane follows.
 template <class G>
-void move_by_unknowns(Mover<G, Pack>& m, const NodeIncrements& increments, std::size_t first, std::size_t count) {
-  const auto node = [first, count](std::size_t l) { return static_cast<int>(first + std::min(l, count - 1)); };
-  const auto eta = gather_increments<G>(increments, node);
+void move_by(Mover<G, Pack>& m, const VectorLanes<G>& eta) {
   if constexpr (std::is_same_v<G, Se3>) {
     m.move(eta, true);
   } else {
@@ -168,27 +160,61 @@ void move_by_unknowns(Mover<G, Pack>& m, const NodeIncrements& increments, std::
   }
 }
 
+/// An increment in the axes in which positions are given.
+Vec6<Pack> turned(const Mat3<Pack>& R, const Vec6<Pack>& eta) {
+  return lanes::join(R * lanes::linear_part(eta), R * lanes::angular_part(eta));
+}
+Vec3<Pack> turned(const Vec2<Pack>& R, const Vec3<Pack>& eta) {
+  return motion::join(motion::complex_times(R, plane_part(eta)), eta[2]);
+}
+template <int N>
+lanes::Vec<Pack, N> turned(motion::NoRotation, const lanes::Vec<Pack, N>& eta) {
+  return eta;
+}
+
+/// Stores the increments of nodes that have not moved by them yet.
+template <class G>
+void note_change(const Mover<G, Pack>& m, const VectorLanes<G>& eta, const NodeEight& eight, NodeChange<G>* changes) {
+  NodeChangeOf<G, Pack> change;
+  change.increment = turned(m.R, eta);
+  change.place = m.x.hi;
+  scatter<NodeChange<G>::numbers>(reinterpret_cast<const Pack*>(&change), changes, eight);
+}
+
 }  // namespace
 
 template <class G>
-void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const NodeIncrements& increments) {
-  by_eights(begin, end, [&](std::size_t first, std::size_t count) {
-    Mover<G, Pack> m = gather_moving(nodes, first, count);
-    move_by_unknowns(m, increments, first, count);
-    scatter_motion<NodeNumbers<G>::pose>(m, nodes, first, count);
-    scatter<G::dof>(&m.dq[0], nodes.motion.data(), first, count, NodeNumbers<G>::dq);
-  });
+void note_changes(const NodesOn<G>& nodes, std::span<const NodeEight> eights, const NodeIncrements& increments,
+                  NodeChange<G>* changes) {
+  for (const NodeEight& eight : eights) {
+    Mover<G, Pack> m;
+    gather_pose(nodes, eight, m);
+    note_change(m, gather_increments<G>(increments, eight), eight, changes);
+  }
+}
+
+template <class G>
+void move_nodes(NodesOn<G>& nodes, std::span<const NodeEight> eights, const NodeIncrements& increments,
+                NodeChange<G>* changes) {
+  for (const NodeEight& eight : eights) {
+    Mover<G, Pack> m = gather_moving(nodes, eight);
+    const VectorLanes<G> eta = gather_increments<G>(increments, eight);
+    if (changes != nullptr) note_change(m, eta, eight, changes);
+    move_by(m, eta);
+    scatter_motion<NodeNumbers<G>::pose>(m, nodes, eight);
+    scatter<G::dof>(&m.dq[0], nodes.motion.data(), eight, NodeNumbers<G>::dq);
+  }
 }
 
 namespace {
 
 /// Loads what a correction needs of the start of the step. In space a move keeps dq up to date.
 template <class G>
-void gather_start(const NodesOn<G>& start, std::size_t first, std::size_t count, Mover<G, Pack>& from) {
+void gather_start(const NodesOn<G>& start, const NodeEight& eight, Mover<G, Pack>& from) {
   if constexpr (std::is_same_v<G, Se3>)
-    gather<2 * G::dof>(start.motion.data(), first, count, &from.v[0], NodeNumbers<G>::v);
+    gather<2 * G::dof>(start.motion.data(), eight, &from.v[0], NodeNumbers<G>::v);
   else
-    gather_motion(start, first, count, from);
+    gather_motion(start, eight, from);
 }
 void measure_increment(const Mover<Se3, Pack>&, Mover<Se3, Pack>&) {}
 /// dq = log(H_start^-1 H), with the accumulated angle, which is correct beyond half a turn. Computed from the poses, it
@@ -207,20 +233,23 @@ void measure_increment(const Mover<motion::Translations<N>, Pack>& from, Mover<m
 }  // namespace
 
 template <class G>
-double correct_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
-                     std::size_t end, const NodeIncrements& increments) {
+double correct_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, const NodeOrder& order,
+                     std::size_t begin, std::size_t end, const NodeIncrements& increments, NodeChange<G>* changes) {
   Pack turned(0.0);
-  by_eights(begin, end, [&](std::size_t first, std::size_t count) {
-    Mover<G, Pack> m = gather_moving(state, first, count), from;
-    gather_start(start, first, count, from);
-    move_by_unknowns(m, increments, first, count);
+  for (std::size_t k = begin; k < end; ++k) {
+    const NodeEight& eight = order.eights()[k];
+    Mover<G, Pack> m = gather_moving(state, eight), from;
+    gather_start(start, eight, from);
+    const VectorLanes<G> eta = gather_increments<G>(increments, eight);
+    note_change(m, eta, eight, changes);
+    move_by(m, eta);
     measure_increment(from, m);
-    const auto now = rule.follow(m.dq, from.v, from.a, start.algorithmic.eight(first));
+    const auto now = rule.follow(m.dq, from.v, from.a, start.algorithmic.eight(k));
     m.v = now.v;
     m.a = now.a;
-    scatter_motion<NodeNumbers<G>::all>(m, state, first, count);
+    scatter_motion<NodeNumbers<G>::all>(m, state, eight);
     turned = larger(turned, angular_square<G>(m.dq));
-  });
+  }
   return largest_of(turned);
 }
 
@@ -264,30 +293,31 @@ void place_node(const NodesOn<G>& from, std::size_t node, const typename G::temp
 }
 
 template <class G>
-double predict_nodes(const AlphaRule& rule, int order, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
-                     std::size_t end) {
+double predict_nodes(const AlphaRule& rule, int degree, const NodesOn<G>& start, NodesOn<G>& state,
+                     const NodeOrder& order, std::size_t begin, std::size_t end) {
   Pack turned(0.0);
-  by_eights(begin, end, [&](std::size_t first, std::size_t count) {
+  for (std::size_t k = begin; k < end; ++k) {
+    const NodeEight& eight = order.eights()[k];
     Mover<G, Pack> m;
-    gather_motion(start, first, count, m);
-    const VectorLanes<G>& algorithmic = start.algorithmic.eight(first);
+    gather_motion(start, eight, m);
+    const VectorLanes<G>& algorithmic = start.algorithmic.eight(k);
     const VectorLanes<G> change =
-        predicted_change(order, start.acceleration_trend.eight(first), start.trend_change.eight(first));
+        predicted_change(degree, start.acceleration_trend.eight(k), start.trend_change.eight(k));
     const VectorLanes<G> eta = rule.predict(m.v, m.a, algorithmic, change);
     m.move(eta, false);
     const auto now = rule.follow(eta, m.v, m.a, algorithmic);
     m.v = now.v;
     m.a = now.a;
     m.dq = eta;
-    scatter_motion<NodeNumbers<G>::all>(m, state, first, count);
+    scatter_motion<NodeNumbers<G>::all>(m, state, eight);
     turned = larger(turned, angular_square<G>(eta));
-  });
+  }
   return largest_of(turned);
 }
 
 template <class G>
 Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_length, const NodesOn<G>& start,
-                                NodesOn<G>& state, std::size_t begin, std::size_t end) {
+                                NodesOn<G>& state, const NodeOrder& order, std::size_t begin, std::size_t end) {
   using Numbers = NodeNumbers<G>;
   Workspace::StepEnd part;
   const auto size = [arm](const VectorLanes<G>& a) {
@@ -299,46 +329,28 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_le
       most = larger(most, i < G::translations ? Pack(per_length * lanes::abs(v[i])) : lanes::abs(v[i]));
     return largest_of(most);
   };
-  by_eights(begin, end, [&](std::size_t first, std::size_t count) {
+  for (std::size_t k = begin; k < end; ++k) {
+    const NodeEight& eight = order.eights()[k];
     VectorLanes<G> rates[3], before[2];  // v, dv/dt and dq
-    gather<3 * G::dof>(state.motion.data(), first, count, &rates[0][0], Numbers::v);
-    gather<2 * G::dof>(start.motion.data(), first, count, &before[0][0], Numbers::v);
-    const VectorLanes<G>&trend = start.acceleration_trend.eight(first), &of_trend = start.trend_change.eight(first);
+    gather<3 * G::dof>(state.motion.data(), eight, &rates[0][0], Numbers::v);
+    gather<2 * G::dof>(start.motion.data(), eight, &before[0][0], Numbers::v);
+    const VectorLanes<G>&trend = start.acceleration_trend.eight(k), &of_trend = start.trend_change.eight(k);
     const VectorLanes<G> change = rates[1] - before[1], of_change = change - trend;
-    state.algorithmic.eight(first) =
-        rule.follow(rates[2], before[0], before[1], start.algorithmic.eight(first)).algorithmic;
+    state.algorithmic.eight(k) = rule.follow(rates[2], before[0], before[1], start.algorithmic.eight(k)).algorithmic;
     const Pack miss[] = {size(change), size(of_change), size(of_change - of_trend)};
-    for (std::size_t k = 0; k < part.misses.size(); ++k)
-      for (std::size_t l = 0; l < count; ++l) part.misses[k] += miss[k][static_cast<int>(l)];
+    for (std::size_t i = 0; i < part.misses.size(); ++i)
+      for (int l = 0; l < eight.count; ++l) part.misses[i] += miss[i][l];
     part.error =
         std::max(part.error,
                  largest(rule.local_error(change, motion::VectorsOn<G>::template bracket<Pack>(rates[0], rates[1]))));
     part.increment = std::max(part.increment, largest(rates[2]));
-    state.acceleration_trend.eight(first) = change;
-    state.trend_change.eight(first) = of_change;
-  });
+    state.acceleration_trend.eight(k) = change;
+    state.trend_change.eight(k) = of_change;
+  }
   return part;
 }
 
 namespace {
-
-/// Poses of eight nodes and their increments, turned into the axes in which positions are given.
-template <class G>
-struct Moving {
-  [[no_unique_address]] typename G::template Rotation<Pack> R;
-  typename G::template Translation<Pack> x;
-  VectorLanes<G> change;
-};
-Vec6<Pack> turned(const Mat3<Pack>& R, const Vec6<Pack>& eta) {
-  return lanes::join(R * lanes::linear_part(eta), R * lanes::angular_part(eta));
-}
-Vec3<Pack> turned(const Vec2<Pack>& R, const Vec3<Pack>& eta) {
-  return motion::join(motion::complex_times(R, plane_part(eta)), eta[2]);
-}
-template <int N>
-lanes::Vec<Pack, N> turned(motion::NoRotation, const lanes::Vec<Pack, N>& eta) {
-  return eta;
-}
 
 /// Displacement of the far end of an arm due to the rotation of its near end.
 Vec3<Pack> swung(const Vec6<Pack>& change, const Vec3<Pack>& arm) {
@@ -353,25 +365,22 @@ lanes::Vec<Pack, N> swung(const lanes::Vec<Pack, N>&, const lanes::Vec<Pack, N>&
 }  // namespace
 
 template <class G>
-double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs, const NodeIncrements& increments) {
-  constexpr int numbers = NodeNumbers<G>::pose - G::translations;  // R and the leading part of the position
+double largest_change(std::span<const PairLanes> pairs, const NodeChange<G>* changes) {
   const auto look_at = [&](const int(&node)[nodes_in_lanes]) {
     const double* from[nodes_in_lanes];
     for (std::size_t l = 0; l < nodes_in_lanes; ++l)
-      from[l] =
-          node[l] < 0 ? nothing : reinterpret_cast<const double*>(&nodes.motion[static_cast<std::size_t>(node[l])]);
-    Moving<G> m;
-    lanes::gather_lanes(from, numbers, reinterpret_cast<Pack*>(&m));
-    m.change = turned(m.R, gather_increments<G>(increments, [&node](std::size_t l) { return node[l]; }));
-    return m;
+      from[l] = node[l] < 0 ? nothing : reinterpret_cast<const double*>(changes + node[l]);
+    NodeChangeOf<G, Pack> c;
+    lanes::gather_lanes(from, NodeChange<G>::numbers, reinterpret_cast<Pack*>(&c));
+    return c;
   };
   const Pack far(too_far);
   Pack most(0.0);
   lanes::Mask<elements::num_lanes> near = less(most, far);  // comparisons are false in lanes that hold NaN
   for (const PairLanes& p : pairs) {
-    const Moving<G> a = look_at(p.a), b = look_at(p.b);
-    const VectorLanes<G> change = b.change - a.change;
-    const typename G::template Translation<Pack> arm = b.x - a.x, swing = swung(a.change, arm),
+    const NodeChangeOf<G, Pack> a = look_at(p.a), b = look_at(p.b);
+    const VectorLanes<G> change = b.increment - a.increment;
+    const typename G::template Translation<Pack> arm = b.place - a.place, swing = swung(a.increment, arm),
                                                  shift = p.per_length * (G::linear(change) - swing);
     for (int i = 0; i < G::dof; ++i) near = near & less(lanes::abs(i < G::translations ? shift[i] : change[i]), far);
     most = larger(most, larger(lanes::dot(shift, shift), angular_square<G>(change)));
@@ -379,16 +388,18 @@ double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs,
   return all(near) ? largest_of(most) : std::numeric_limits<double>::infinity();
 }
 
-#define BOUGH_INSTANTIATE(G)                                                                                         \
-  template void move_nodes<G>(NodesOn<G>&, std::size_t, std::size_t, const NodeIncrements&);                         \
-  template void move_node<G>(NodesOn<G>&, std::size_t, const G::Vector<double>&);                                    \
-  template void place_node<G>(const NodesOn<G>&, std::size_t, const G::Vector<double>&, NodesOn<G>&);                \
-  template double predict_nodes<G>(const AlphaRule&, int, const NodesOn<G>&, NodesOn<G>&, std::size_t, std::size_t); \
-  template double correct_nodes<G>(const AlphaRule&, const NodesOn<G>&, NodesOn<G>&, std::size_t, std::size_t,       \
-                                   const NodeIncrements&);                                                           \
-  template Workspace::StepEnd finish_nodes<G>(const AlphaRule&, double, double, const NodesOn<G>&, NodesOn<G>&,      \
-                                              std::size_t, std::size_t);                                             \
-  template double largest_change<G>(const NodesOn<G>&, std::span<const PairLanes>, const NodeIncrements&);
+#define BOUGH_INSTANTIATE(G)                                                                                           \
+  template void note_changes<G>(const NodesOn<G>&, std::span<const NodeEight>, const NodeIncrements&, NodeChange<G>*); \
+  template void move_nodes<G>(NodesOn<G>&, std::span<const NodeEight>, const NodeIncrements&, NodeChange<G>*);         \
+  template void move_node<G>(NodesOn<G>&, std::size_t, const G::Vector<double>&);                                      \
+  template void place_node<G>(const NodesOn<G>&, std::size_t, const G::Vector<double>&, NodesOn<G>&);                  \
+  template double predict_nodes<G>(const AlphaRule&, int, const NodesOn<G>&, NodesOn<G>&, const NodeOrder&,            \
+                                   std::size_t, std::size_t);                                                          \
+  template double correct_nodes<G>(const AlphaRule&, const NodesOn<G>&, NodesOn<G>&, const NodeOrder&, std::size_t,    \
+                                   std::size_t, const NodeIncrements&, NodeChange<G>*);                                \
+  template Workspace::StepEnd finish_nodes<G>(const AlphaRule&, double, double, const NodesOn<G>&, NodesOn<G>&,        \
+                                              const NodeOrder&, std::size_t, std::size_t);                             \
+  template double largest_change<G>(std::span<const PairLanes>, const NodeChange<G>*);
 BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
 
 }  // namespace bough::step

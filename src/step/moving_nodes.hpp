@@ -1,8 +1,8 @@
 #pragma once
 /// Operations of a step on nodes, on any group: prediction, Newton corrections, updates of velocities, local
 /// errors. Eight nodes are computed at once, one in each lane of a pack; results are bitwise equal to those of scalar
-/// arithmetic. Each function takes the range [begin, end) of nodes, so that threads can share the work. Internal to
-/// step.
+/// arithmetic. Each function takes some of the eights of a NodeOrder, or its range [begin, end) of them, so that threads
+/// can share the work. Internal to step.
 #include <cstdint>
 #include <span>
 
@@ -30,36 +30,42 @@ struct PairLanes {
   elements::LanePack per_length;  ///< 1 / length of the element [1/m]
 };
 
+/// Stores the increments of nodes that have not moved by them yet in `changes`, by node.
+template <class G>
+void note_changes(const NodesOn<G>& nodes, std::span<const NodeEight> eights, const NodeIncrements& increments,
+                  NodeChange<G>* changes);
+
 /// Applies a correction, H <- H exp(eta). In space the increment of the step is updated, too:
 /// dq <- log(exp(dq) exp(eta)). On other groups the poses at both ends of the step determine dq, except its angle in a
-/// plane, which they do not determine beyond half a turn: the angle is updated.
+/// plane, which they do not determine beyond half a turn: the angle is updated. changes: as of note_changes, or null.
 template <class G>
-void move_nodes(NodesOn<G>& nodes, std::size_t begin, std::size_t end, const NodeIncrements& increments);
+void move_nodes(NodesOn<G>& nodes, std::span<const NodeEight> eights, const NodeIncrements& increments,
+                NodeChange<G>* changes);
 
 /// Applies a correction of generalized-alpha in one pass: the poses and dq as above, all components of dq on every
 /// group, and the velocities and accelerations that the rule assigns to dq. Returns the largest squared angle of dq.
+/// Stores the changes as note_changes.
 template <class G>
-double correct_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
-                     std::size_t end, const NodeIncrements& increments);
+double correct_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, const NodeOrder& order,
+                     std::size_t begin, std::size_t end, const NodeIncrements& increments, NodeChange<G>* changes);
 
 /// Predictor: sets poses, rates and dq of the nodes of `state` from those of `start`. Returns the largest squared angle
-/// of dq.
+/// of dq. degree: of the polynomial through past accelerations.
 template <class G>
-double predict_nodes(const AlphaRule& rule, int order, const NodesOn<G>& start, NodesOn<G>& state, std::size_t begin,
-                     std::size_t end);
+double predict_nodes(const AlphaRule& rule, int degree, const NodesOn<G>& start, NodesOn<G>& state,
+                     const NodeOrder& order, std::size_t begin, std::size_t end);
 
 /// At the end of a step: stores the acceleration-like variable, and the changes of accelerations for the next
-/// predictor, and returns the errors of the
-/// predictors of order 0, 1, 2, the local error and the size of dq. `arm` [m] converts angular to linear accelerations;
-/// `per_length` [1/m] makes lengths relative.
+/// predictor, and returns the errors of the predictors of order 0, 1, 2, the local error and the size of dq. `arm` [m]
+/// converts angular to linear accelerations; `per_length` [1/m] makes lengths relative.
 template <class G>
 Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_length, const NodesOn<G>& start,
-                                NodesOn<G>& state, std::size_t begin, std::size_t end);
+                                NodesOn<G>& state, const NodeOrder& order, std::size_t begin, std::size_t end);
 
 /// The largest squared relative displacement or rotation of the pairs (Corrections::relative_size); infinite if one
 /// exceeds the bound too_far or is not a number.
 template <class G>
-double largest_change(const NodesOn<G>& nodes, std::span<const PairLanes> pairs, const NodeIncrements& increments);
+double largest_change(std::span<const PairLanes> pairs, const NodeChange<G>* changes);
 
 /// Places node `node` of `to` at H exp(d), H being its pose in `from`, and sets dq = d.
 template <class G>

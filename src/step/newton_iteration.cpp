@@ -44,11 +44,18 @@ bool NewtonIteration::is_noise_at(double expected) const {
 }
 
 std::optional<Trouble> NewtonIteration::evaluate(const State& state) {
-  if (auto t = system_.evaluate(state, slopes_, fresh_ && count() == 0)) return t;
+  std::optional<Trouble> t, of_factor;
+  if (count() == 0 && fresh_)
+    t = system_.evaluate_and_factor(state, slopes_, !may_reuse_, of_factor);
+  else if (count() == 0 || may_reuse_)
+    t = system_.evaluate_and_condense(state, slopes_);
+  else
+    t = system_.evaluate(state, slopes_, false);  // the next factorization will be a new one
+  if (t) return t;
   report_.residual = system_.residual_size();
   const double before = std::exchange(size_, largest_share(system_, report_.residual));
   if (count() > 0) shrunk_ = size_ < before ? size_ / before : 1.0;
-  return std::nullopt;
+  return of_factor;
 }
 
 bool NewtonIteration::is_converged() {
@@ -94,29 +101,30 @@ bool NewtonIteration::contracts_slowly() const {
 
 std::optional<Trouble> NewtonIteration::renew_factor(const State& state) {
   LinearSolution& linear = system_.linear();
-  if (count() > 0) {
-    const bool is_slow = contracts_slowly();
-    if (count() > 1 && is_own_ && rate_ > slowest_contraction && linear.takes_symmetric_parts())
-      linear.drop_symmetry();  // the Jacobian is up to date, so the dropped antisymmetric part slows it down
-    fresh_ = !may_reuse_ || is_slow || !linear.has_factor(slopes_);
-    if (fresh_)
-      if (auto t = system_.evaluate(state, slopes_, true)) return t;
+  if (count() == 0) {
+    is_own_ = fresh_;
+    served_ = 1;
+    return std::nullopt;
   }
+  const bool is_slow = contracts_slowly();
+  if (count() > 1 && is_own_ && rate_ > slowest_contraction && linear.takes_symmetric_parts())
+    linear.drop_symmetry();  // the Jacobian is up to date, so the dropped antisymmetric part slows it down
+  fresh_ = !may_reuse_ || is_slow || !linear.has_factor(slopes_);
   is_own_ |= fresh_;
   served_ = fresh_ ? 1 : served_ + 1;
   if (!fresh_) return std::nullopt;
-  const auto t = linear.factor(count() == 0 && !may_reuse_, slopes_);
-  if (!t || count() == 0) return t;
-  return Trouble{"iteration " + std::to_string(count()) + " came to a shape at which " + t->text};
+  std::optional<Trouble> of_factor;
+  if (auto t = system_.evaluate_and_factor(state, slopes_, false, of_factor)) return t;
+  if (!of_factor) return std::nullopt;
+  return Trouble{"iteration " + std::to_string(count()) + " came to a shape at which " + of_factor->text};
 }
 
-std::optional<Trouble> NewtonIteration::solve(const State& state) {
-  std::vector<double>&rhs = system_.work().rhs, &x = system_.work().x;
-  for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system_.residual()[i];
-  if (auto t = system_.linear().solve(rhs.data(), x.data(), false)) return t;
+std::optional<Trouble> NewtonIteration::solve(solve::VisitWork correct) {
+  if (auto t = system_.linear().substitute(system_.right_hand_side().data(), system_.work().x.data(), correct))
+    return t;
   previous_ = report_.change;
   const PhaseTimer timer{system_.clock(), system_.counts().update};
-  report_.change = system_.corrections().relative_size(state, x.data());
+  report_.change = system_.corrections().applied_size();
   if (count() < StepReport::remembered_changes) report_.change_list[static_cast<std::size_t>(count())] = report_.change;
   ++report_.iterations;
   if (!std::isfinite(report_.change)) return Trouble{"the iteration left finite numbers"};

@@ -11,18 +11,20 @@ class NewtonIteration {
   NewtonIteration(System& system, const StepOptions& options, const IterationGoal& goal,
                   const elements::Slopes& slopes);
 
-  /// Evaluates the residual. Before the first correction it also evaluates the tangents if a new factorization is due.
+  /// Evaluates the residual and condenses the right-hand side. Before the first correction it also evaluates and factors
+  /// the tangents if a new factorization is due.
   [[nodiscard]] std::optional<Trouble> evaluate(const State& state);
   /// Whether the residual just evaluated ends the iteration: it and the expected next correction are small enough, or
   /// the residual is round-off.
   bool is_converged();
   /// The reason to abandon the iteration, if there is one: too many corrections, or corrections that grow.
   std::optional<Trouble> give_up();
-  /// Evaluates and factors the Jacobian anew if the present factorization contracts too slowly or was made with other
-  /// slopes.
+  /// Evaluates and factors the Jacobian anew, in another upward walk, if the present factorization contracts too slowly
+  /// or was made with other slopes.
   [[nodiscard]] std::optional<Trouble> renew_factor(const State& state);
-  /// Solves the linear system for the Newton correction and measures it.
-  [[nodiscard]] std::optional<Trouble> solve(const State& state);
+  /// Solves the linear system for the Newton correction in a downward walk, whose visits apply it by `correct(visit)`,
+  /// and takes its size.
+  [[nodiscard]] std::optional<Trouble> solve(solve::VisitWork correct);
   /// Whether the iteration ends with the correction just applied: the residual that it leaves, predicted from the rates
   /// at which corrections and residuals have shrunk, is small enough and need not be evaluated.
   bool will_be_converged();
@@ -56,22 +58,27 @@ class NewtonIteration {
   double contraction_;  ///< last ratio of corrections above round-off
 };
 
-/// Newton's loop: evaluate the residual, stop when converged, factor anew where that is due, solve, correct.
-/// `correct(state, x)` applies the solution x: it moves the nodes, updates velocities and accelerations by the formulas
-/// of the integrator, and adds the multipliers.
-template <class Correct>
+/// Newton's loop: evaluate the residual, stop when converged, factor anew where that is due, solve, correct. An
+/// iteration is two walks over the sub-domains. On the way up each evaluates its elements and condenses its right-hand
+/// side, or its matrix as well; on the way down it gets its part x of the solution and applies it by
+/// `correction.apply_in_visit(visit, state, x)`: nodes move, velocities and accelerations follow by the formulas of the
+/// integrator, multipliers grow. `correction.complete(state, x)` does what is left and judges the result.
+template <class Correction>
 StepReport iterate(System& system, State& state, const StepOptions& options, const IterationGoal& goal,
-                   const elements::Slopes& slopes, Correct&& correct) {
+                   const elements::Slopes& slopes, const Correction& correction) {
   NewtonIteration newton(system, options, goal, slopes);
   const PhaseChain chain(system.clock());
+  const double* const x = system.work().x.data();
+  auto correct = [&](int visit) { correction.apply_in_visit(visit, state, x); };
   for (;;) {
     if (const auto t = newton.evaluate(state)) return newton.fail(*t);
     if (newton.is_converged()) return newton.converge();
     if (const auto t = newton.give_up()) return newton.fail(*t);
     if (const auto t = newton.renew_factor(state)) return newton.fail(*t);
-    if (const auto t = newton.solve(state)) return newton.fail(*t);
+    state.begin_change();
+    if (const auto t = newton.solve(solve::make_visit_work(correct))) return newton.fail(*t);
     const PhaseTimer timer{system.clock(), system.counts().update};
-    if (const std::optional<Trouble> t = correct(state, system.work().x.data())) return newton.fail(*t);
+    if (const std::optional<Trouble> t = correction.complete(state, x)) return newton.fail(*t);
     if (newton.will_be_converged()) return newton.converge();
   }
 }

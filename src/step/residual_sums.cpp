@@ -49,16 +49,29 @@ struct Registers {
 
 }  // namespace
 
-ResidualSums::ResidualSums(const plan::Plan& plan, const UnknownPlaces& places, const BlockOwners& owners,
+ResidualSums::ResidualSums(const plan::Plan& plan, const UnknownPlaces& places, const LinearSolution& linear,
                            const TrimmedElements* trimmed)
-    : plan_(plan), places_(places), residual_(places.size(), 0.0), is_length_(places.size(), 0) {
-  place_parts(owners, trimmed);
+    : plan_(plan),
+      places_(places),
+      residual_(places.size(), 0.0),
+      right_hand_side_(places.size(), 0.0),
+      is_length_(places.size(), 0) {
+  place_parts(linear, trimmed);
   for (const UnknownPlaces::Multiplier& m : places.multipliers()) is_length_[m.unknown] = m.is_of_length;
-  chunk_sizes_.resize((sums_.size() + block_grain - 1) / block_grain, {{}, true});
+  chunk_sizes_.resize(chunks_.size(), {{}, true});
+}
+
+/// Divides the sums from `begin` on, first those of nodes, then of points, then of joints.
+void ResidualSums::add_chunks(std::size_t begin, std::size_t nodes, std::size_t points) {
+  const std::size_t nodes_end = begin + nodes, points_end = nodes_end + points;
+  for (std::size_t end; begin < sums_.size(); begin = end) {
+    end = std::min(begin + static_cast<std::size_t>(block_grain), sums_.size());
+    chunks_.push_back({begin, std::clamp(nodes_end, begin, end), std::clamp(points_end, begin, end), end});
+  }
 }
 
 /// Where the parts of elements lie, and which of them add up to a block, or to the forces on a node that is held.
-void ResidualSums::place_parts(const BlockOwners& owners, const TrimmedElements* trimmed) {
+void ResidualSums::place_parts(const LinearSolution& linear, const TrimmedElements* trimmed) {
   const auto count = static_cast<std::size_t>(places_.num_blocks());
   std::vector<std::vector<std::int64_t>> uses(count + plan_.held.size());
   std::vector<std::size_t> held_of_node(plan_.nodes.size(), 0);
@@ -82,21 +95,32 @@ void ResidualSums::place_parts(const BlockOwners& owners, const TrimmedElements*
     uses_.insert(uses_.end(), list.begin(), list.end());
     sums_.push_back({begin, static_cast<std::int64_t>(uses_.size()), unknown, size, owner});
   };
-  const auto add_nodes = [&](bool points) {
-    for (int b = 0; b < places_.num_blocks(); ++b)
-      if (owners.node(b) >= 0 && plan_.unknowns.is_point_at(static_cast<std::size_t>(owners.node(b))) == points)
-        add(uses[static_cast<std::size_t>(b)], places_.block_begin(b), places_.block_size(b), owners.node(b));
-  };
-  add_nodes(false);
-  num_node_sums_ = static_cast<std::int64_t>(sums_.size());
-  add_nodes(true);
-  num_point_sums_ = static_cast<std::int64_t>(sums_.size()) - num_node_sums_;
+  const BlockOwners& owners = linear.owners();
+  std::vector<std::vector<int>> blocks(static_cast<std::size_t>(linear.visits().count()));
   for (int b = 0; b < places_.num_blocks(); ++b)
-    if (owners.joint(b) >= 0)
-      add(uses[static_cast<std::size_t>(b)], places_.block_begin(b), places_.block_size(b), owners.joint(b));
-  num_row_sums_ = static_cast<std::int64_t>(sums_.size()) - num_node_sums_ - num_point_sums_;
+    blocks[static_cast<std::size_t>(linear.visits().of_block[static_cast<std::size_t>(b)])].push_back(b);
+  std::vector<int> of_chunk;
+  for (std::size_t v = 0; v < blocks.size(); ++v) {
+    const std::size_t first = sums_.size();
+    const auto add_nodes = [&](bool points) {
+      const std::size_t before = sums_.size();
+      for (const int b : blocks[v])
+        if (owners.node(b) >= 0 && plan_.unknowns.is_point_at(static_cast<std::size_t>(owners.node(b))) == points)
+          add(uses[static_cast<std::size_t>(b)], places_.block_begin(b), places_.block_size(b), owners.node(b));
+      return sums_.size() - before;
+    };
+    const std::size_t nodes = add_nodes(false), points = add_nodes(true);
+    for (const int b : blocks[v])
+      if (owners.joint(b) >= 0)
+        add(uses[static_cast<std::size_t>(b)], places_.block_begin(b), places_.block_size(b), owners.joint(b));
+    add_chunks(first, nodes, points);
+    of_chunk.resize(chunks_.size(), static_cast<int>(v));
+  }
+  chunks_by_visit_ = VisitRanges(of_chunk, linear.visits().count());
+  const std::size_t first_held = sums_.size();
   for (std::size_t h = 0; h < plan_.held.size(); ++h)
     add(uses[count + h], -1, plan_.unknowns.count, plan_.held[h].node);
+  add_chunks(first_held, 0, 0);
 }
 
 void ResidualSums::set_parts(std::size_t element, const double* residual, const double* magnitude) {
@@ -118,8 +142,11 @@ ResidualSums::ChunkSize ResidualSums::sum_nodes(std::size_t begin, std::size_t e
     for (std::int64_t use = to.use_begin; use < to.use_end; ++use)
       sums.add(parts_.data() + uses_[static_cast<std::size_t>(use)]);
     sums.note_sizes();
-    double* const r = residual_.data() + to.unknown;
-    for (int i = 0; i < Count; ++i) r[i] = sums[i];
+    double *const r = residual_.data() + to.unknown, *const b = right_hand_side_.data() + to.unknown;
+    for (int i = 0; i < Count; ++i) {
+      r[i] = sums[i];
+      b[i] = -r[i];
+    }
   }
   const std::array<std::int64_t, 2 * Count> most = sums.largest();
   double sum_of[6] = {}, terms_of[6] = {};
@@ -145,10 +172,11 @@ void ResidualSums::copy_rows(std::size_t begin, std::size_t end, ChunkSize& chun
   for (std::size_t k = begin; k < end; ++k) {
     const Sum& to = sums_[k];
     const double* const from = parts_.data() + uses_[static_cast<std::size_t>(to.use_begin)];
-    double* const r = residual_.data() + to.unknown;
+    double *const r = residual_.data() + to.unknown, *const b = right_hand_side_.data() + to.unknown;
     const char* const is_length = is_length_.data() + to.unknown;
     for (int i = 0; i < to.size; ++i) {
       r[i] = from[i];
+      b[i] = -r[i];
       std::int64_t& size = most[static_cast<std::size_t>(is_length[i])];
       size = std::max(size, size_bits(r[i]));
     }
@@ -172,9 +200,10 @@ std::array<double, 12> ResidualSums::add_up(const Sum& sum) const {
 void ResidualSums::sum_point(const Sum& sum, ChunkSize& chunk) {
   const std::array<double, 12> total = add_up(sum);
   const auto count = static_cast<std::size_t>(plan_.unknowns.count);
-  double* const r = residual_.data() + sum.unknown;
+  double *const r = residual_.data() + sum.unknown, *const b = right_hand_side_.data() + sum.unknown;
   for (std::size_t i = 0; i < static_cast<std::size_t>(sum.size); ++i) {
     r[i] = total[i];
+    b[i] = -r[i];
     chunk.is_finite &= size_bits(r[i]) < bits_of_infinity;
     chunk.size.force = std::max(chunk.size.force, std::abs(r[i]));
     chunk.size.force_scale = std::max(chunk.size.force_scale, total[count + i]);
@@ -192,21 +221,28 @@ void ResidualSums::sum_held_node(const Sum& sum, ChunkSize& chunk) const {
   chunk.size.moment_scale = std::max(chunk.size.moment_scale, terms.moment + held_by.moment);
 }
 
-/// Sums [begin, end), a chunk, and how large they are.
-void ResidualSums::sum_chunk(std::int64_t begin, std::int64_t end) {
-  const auto until = [begin, end](std::int64_t last) { return static_cast<std::size_t>(std::clamp(last, begin, end)); };
-  const std::int64_t points = num_node_sums_ + num_point_sums_;
-  const std::size_t nodes_end = until(num_node_sums_), points_end = until(points),
-                    rows_end = until(points + num_row_sums_);
-  auto k = static_cast<std::size_t>(begin);
+void ResidualSums::sum_chunk(std::size_t index) {
+  const Chunk& c = chunks_[index];
   const int count = plan_.unknowns.count;
-  ChunkSize chunk = count == 6   ? sum_nodes<6>(k, nodes_end)
-                    : count == 3 ? sum_nodes<3>(k, nodes_end)
-                                 : sum_nodes<1>(k, nodes_end);
-  for (k = nodes_end; k < points_end; ++k) sum_point(sums_[k], chunk);
-  copy_rows(points_end, rows_end, chunk);
-  for (k = rows_end; k < static_cast<std::size_t>(end); ++k) sum_held_node(sums_[k], chunk);
-  chunk_sizes_[static_cast<std::size_t>(begin / block_grain)] = chunk;
+  ChunkSize size = count == 6   ? sum_nodes<6>(c.begin, c.nodes_end)
+                   : count == 3 ? sum_nodes<3>(c.begin, c.nodes_end)
+                                : sum_nodes<1>(c.begin, c.nodes_end);
+  for (std::size_t k = c.nodes_end; k < c.points_end; ++k) sum_point(sums_[k], size);
+  copy_rows(c.points_end, c.end, size);
+  chunk_sizes_[index] = size;
+}
+
+void ResidualSums::sum_visit(int visit, const tree::Walker& walker) {
+  chunks_by_visit_.for_each(walker, visit, 1, [this](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t c = begin; c < end; ++c) sum_chunk(static_cast<std::size_t>(c));
+  });
+}
+
+void ResidualSums::sum_held() {
+  for (auto c = static_cast<std::size_t>(chunks_by_visit_.count()); c < chunks_.size(); ++c) {
+    chunk_sizes_[c] = {{}, true};
+    for (std::size_t k = chunks_[c].begin; k < chunks_[c].end; ++k) sum_held_node(sums_[k], chunk_sizes_[c]);
+  }
 }
 
 ResidualSize ResidualSums::size() const {
@@ -232,6 +268,7 @@ void ResidualSums::clear_signals() {
 
 void ResidualSums::set_signal(int signal, std::size_t unknown, double residual, double size_of_terms) {
   residual_[unknown] = residual;
+  right_hand_side_[unknown] = -residual;
   if (!std::isfinite(residual)) lost_signal_ = signal;
   const double share = residual == 0.0 ? 0.0 : std::abs(residual) / size_of_terms;
   if (!(share > signal_share_)) return;
@@ -241,29 +278,24 @@ void ResidualSums::set_signal(int signal, std::size_t unknown, double residual, 
 
 void ResidualSums::name_worst(ResidualSize& size) const {
   ResidualSize most;
-  const std::int64_t points = num_node_sums_ + num_point_sums_;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(points + num_row_sums_); ++k) {
-    const Sum& sum = sums_[k];
-    const double* const r = residual_.data() + sum.unknown;
-    if (k < static_cast<std::size_t>(points)) {
-      const NodeSize now = size_up(plan_.unknowns, static_cast<std::size_t>(sum.owner), r);
+  for (std::int64_t c = 0; c < chunks_by_visit_.count(); ++c) {
+    const Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
+    for (std::size_t k = chunk.begin; k < chunk.points_end; ++k) {
+      const Sum& sum = sums_[k];
+      const NodeSize now = size_up(plan_.unknowns, static_cast<std::size_t>(sum.owner), residual_.data() + sum.unknown);
       if (now.force > most.force) size.worst_force_node = sum.owner;
       if (now.moment > most.moment) size.worst_moment_node = sum.owner;
       most.force = std::max(most.force, now.force);
       most.moment = std::max(most.moment, now.moment);
-      continue;
     }
-    for (int i = 0; i < sum.size; ++i) {
-      if (std::abs(r[i]) <= most.length) continue;
-      most.length = std::abs(r[i]);
-      size.worst_joint = sum.owner;
-    }
+    for (std::size_t k = chunk.points_end; k < chunk.end; ++k)
+      for (int i = 0; i < sums_[k].size; ++i) {
+        const double violation = std::abs(residual_[static_cast<std::size_t>(sums_[k].unknown + i)]);
+        if (violation <= most.length) continue;
+        most.length = violation;
+        size.worst_joint = sums_[k].owner;
+      }
   }
-}
-
-void ResidualSums::sum(const tree::Walker& walker) {
-  auto by_sum = [&](std::int64_t begin, std::int64_t end) { sum_chunk(begin, end); };
-  walker.for_each_chunk(static_cast<std::int64_t>(sums_.size()), block_grain, tree::make_chunk(by_sum));
 }
 
 bool ResidualSums::is_finite() const {

@@ -243,12 +243,13 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   std::vector<double>& steady_error = rhs;
   state.change_all([&]<class G>(NodesOn<G>& nodes) {
     std::fill(steady_error.begin(), steady_error.end(), 0.0);
+    for (auto* known : {&nodes.algorithmic, &nodes.acceleration_trend, &nodes.trend_change})
+      known->assign_zero(system.node_order());
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
       const auto& node = nodes.motion[n];
       const typename NodesOn<G>::Vector jerk = part_on<G>(system, x, n);
       nodes.algorithmic.set(n, node.a + (c.shift() * h) * jerk);
       nodes.acceleration_trend.set(n, h * jerk);
-      nodes.trend_change.set(n, NodesOn<G>::Vector::zero());
       system.places().set_node_part(
           steady_error.data(), static_cast<int>(n),
           typename NodesOn<G>::Vector((-h * h) *

@@ -12,13 +12,6 @@ using motion::Vec6;
 
 namespace {
 
-void set_count(const plan::Plan& plan, auto& nodes) {
-  const std::size_t count = plan.nodes.size();
-  nodes.motion.resize(count);
-  nodes.algorithmic.assign_zero(count);
-  nodes.acceleration_trend = nodes.trend_change = nodes.algorithmic;
-}
-
 /// A motion vector of space, own axes, in the components of the nodes' group.
 Vec6<double> restricted(const plan::Plan&, const SpatialNodes&, std::size_t, const Vec6<double>& v) { return v; }
 template <class G>
@@ -35,7 +28,7 @@ State make_initial_state(const plan::Plan& plan) {
   State s;
   SpatialNodes& nodes = s.emplace<Se3>();
   const std::size_t n = plan.nodes.size();
-  set_count(plan, nodes);
+  nodes.motion.resize(n);
   nodes.rotation.resize(n);
   s.multipliers.assign(static_cast<std::size_t>(plan.num_multipliers), 0.0);
   s.multiplier_trend = s.multiplier_trend_change = s.multipliers;
@@ -67,7 +60,7 @@ State make_initial_state(const plan::Plan& plan) {
   plan.with_group([&]<class G>() {
     if constexpr (!std::is_same_v<G, Se3>) {
       NodesOn<G>& reduced = s.emplace<G>();
-      set_count(plan, reduced);
+      reduced.motion.resize(n);
       s.in_space_.nodes.reserve(n);
       const auto none = NodesOn<G>::Vector::zero();
       const std::vector<plan::NodeStartOn<G>>& starts = std::get<plan::ModelOn<G>>(plan.model).nodes;
@@ -83,7 +76,6 @@ State make_spatial(const plan::Plan& plan, const State& state) {
   State s = state;
   if (state.is_in_space()) return s;
   SpatialNodes& nodes = s.emplace<Se3>();
-  set_count(plan, nodes);
   nodes.motion = nodes_in_space(plan, state);
   for (const elements::NodeMotion& n : nodes.motion)
     nodes.rotation.push_back(motion::normalise(motion::quaternion_of(n.R)));

@@ -15,14 +15,15 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
       instant_(plan),
       places_(plan, linear_.tree().unknown_begin),
       lengths_(measure_elements(plan)),
+      node_order_(std::make_shared<const NodeOrder>(plan, linear_.visits())),
       constraints_(plan, instant_, walker),
       trimmed_(TrimmedElements::are_in(plan) ? std::make_unique<TrimmedElements>(plan) : nullptr),
       held_(plan.held.empty() ? nullptr : std::make_unique<HeldNodes>(plan, *trimmed_)),
-      sums_(plan, places_, linear_.owners(), trimmed_.get()),
+      sums_(plan, places_, linear_, trimmed_.get()),
       elements_(plan, instant_, trimmed_.get(), sums_, linear_, walker),
       signals_(plan, instant_, places_, linear_),
       round_off_(plan, places_, linear_, elements_, lengths_),
-      corrections_(plan, places_, instant_, lengths_, walker, clock_, counts_) {
+      corrections_(plan, places_, instant_, lengths_, linear_, node_order_, walker, clock_, counts_) {
   work_.rhs.assign(places_.size(), 0.0);
   work_.x = work_.rhs;
   linear_.set_renewal_cost(estimate_step_cost(*this).renewal());
@@ -36,16 +37,55 @@ std::optional<Trouble> System::set_time(double time, laws::Side side) {
   return std::nullopt;
 }
 
+/// Equations of signals read the motion alone, so that they can be evaluated before the visits that need them.
+void System::begin(const State& state, const elements::Slopes& slopes, bool tangent) {
+  ++counts_.evaluations;
+  elements_.begin(state, slopes, tangent);
+  if (!signals_.are_none()) signals_.evaluate(state, slopes, tangent, sums_);
+}
+
+/// Evaluates the elements of a visit and adds up the residuals of its blocks.
+solve::VisitWork System::in_visits() {
+  return {[](void* context, int visit) {
+            auto* const system = static_cast<System*>(context);
+            system->elements_.evaluate_visit(visit);
+            system->sums_.sum_visit(visit, system->walker_);
+          },
+          this};
+}
+
 std::optional<Trouble> System::evaluate(const State& state, const elements::Slopes& slopes, bool tangent) {
   PhaseTimer timer{clock_, counts_.assemble};
-  ++counts_.evaluations;
-  elements_.evaluate(state, slopes, tangent);
-  if (!signals_.are_none()) signals_.evaluate(state, slopes, tangent, sums_);
-  return sum(state);
+  begin(state, slopes, tangent);
+  linear_.visit_all(in_visits());
+  return end(state);
+}
+
+std::optional<Trouble> System::evaluate_and_condense(const State& state, const elements::Slopes& slopes) {
+  PhaseTimer timer{clock_, counts_.assemble};
+  begin(state, slopes, false);
+  linear_.condense(in_visits(), right_hand_side().data());
+  return end(state);
+}
+
+std::optional<Trouble> System::evaluate_and_factor(const State& state, const elements::Slopes& slopes, bool rescale,
+                                                   std::optional<Trouble>& of_factor) {
+  PhaseTimer timer{clock_, counts_.assemble};
+  begin(state, slopes, true);
+  const auto found = linear_.factor(rescale, slopes, in_visits(), right_hand_side().data());
+  if (auto t = end(state)) return t;
+  of_factor = found;
+  return std::nullopt;
 }
 
 std::optional<Trouble> System::sum(const State& state) {
-  sums_.sum(walker_);
+  auto sum_visit = [this](int visit) { sums_.sum_visit(visit, walker_); };
+  linear_.visit_all(solve::make_visit_work(sum_visit));
+  return end(state);
+}
+
+std::optional<Trouble> System::end(const State& state) {
+  sums_.sum_held();
   if (sums_.is_finite()) return std::nullopt;
   const std::string at = " not finite at time " + std::to_string(state.time);
   if (sums_.lost_signal() >= 0)

@@ -47,31 +47,36 @@ std::vector<double> medians(const std::vector<float>& samples, std::size_t n) {
 /// Medians of one run by visit.
 struct VisitMedians {
   std::array<std::vector<double>, schedule::num_works> seconds;
-  std::array<std::vector<double>, schedule::num_stages> stage;
-  std::vector<double> wait, evaluate;
+  std::array<std::vector<double>, schedule::num_stages> stage;  ///< of factorizations
+  std::vector<double> wait;
+  std::vector<double> evaluate;  ///< in walks that condense right-hand sides, or else in factorizations
+  std::vector<double> move;      ///< of nodes, in back-substitutions
+  /// Seconds of a visit in one walk of each kind, without elements and nodes.
+  double solver(std::size_t visit) const;
 };
 
-VisitMedians find_medians(const WalkTimes& times, const std::vector<solve::VisitShape>& visits) {
-  const std::size_t n = visits.size();
+double VisitMedians::solver(std::size_t v) const {
+  double sum = -stage[of(Stage::evaluate)][v] - move[v];
+  for (const Work w : walks) sum += seconds[of(w)][v];
+  return std::max(0.0, sum - (seconds[of(Work::forward)][v] > 0.0 ? evaluate[v] : 0.0));
+}
+
+VisitMedians find_medians(const WalkTimes& times, std::size_t n) {
   VisitMedians m;
   for (auto& s : m.seconds) s.assign(n, 0.0);
   for (auto& s : m.stage) s.assign(n, 0.0);
   m.wait.assign(n, 0.0);
   m.evaluate.assign(n, 0.0);
+  m.move.assign(n, 0.0);
   if (const TreeTimes* t = walked_tree(times, n); t != nullptr) {
     for (Work w : walks) m.seconds[of(w)] = medians(t->work[of(w)].visit, n);
     for (std::size_t k = 0; k < m.stage.size(); ++k) m.stage[k] = medians(t->work[of(Work::factor)].stage[k], n);
     m.wait = medians(t->work[of(Work::factor)].wait, n);
-  }
-  const schedule::ChunkTimes& c = times.chunks[of(Work::evaluate)];
-  if (c.count == 0) return m;
-  std::size_t visit = 0;
-  for (std::size_t chunk = 0; chunk < c.chunk.size(); ++chunk) {  // both are in the order of the batches
-    const auto begin = static_cast<std::int64_t>(chunk) * c.grain;
-    const std::int64_t end = std::min(begin + c.grain, static_cast<std::int64_t>(visits.back().batch_end));
-    for (std::int64_t b = begin; b < end; ++b) {
-      while (visit + 1 < n && b >= visits[visit].batch_end) ++visit;
-      m.evaluate[visit] += c.chunk[chunk] / static_cast<double>(c.count * (end - begin));
+    const schedule::WorkTimes& up = t->work[of(Work::forward)];
+    m.evaluate = up.walks > 0 ? medians(up.stage[of(Stage::evaluate)], n) : m.stage[of(Stage::evaluate)];
+    if (t->work[of(Work::backward)].walks > 0) {
+      const std::vector<double> substitute = medians(t->work[of(Work::backward)].stage[of(Stage::substitute)], n);
+      for (std::size_t v = 0; v < n; ++v) m.move[v] = std::max(0.0, m.seconds[of(Work::backward)][v] - substitute[v]);
     }
   }
   return m;
@@ -116,7 +121,8 @@ void fill_subdomains(const Found& found, const VisitMedians& m, records::Profile
     const auto share = 1.0 / static_cast<double>(shape.subdomains.size());
     records::SubdomainTimes t;
     const double evaluated = m.stage[of(Stage::evaluate)][v];
-    t.evaluate = (m.evaluate[v] + evaluated) * share;
+    t.evaluate = m.evaluate[v] * share;
+    t.move = m.move[v] * share;
     t.assemble = m.stage[of(Stage::assemble)][v] * share;
     const double forward_inside = m.stage[of(Stage::forward)][v];
     const double elimination =
@@ -124,8 +130,9 @@ void fill_subdomains(const Found& found, const VisitMedians& m, records::Profile
         share;
     t.condense = shape.flops > 0.0 ? elimination * std::min(1.0, shape.condense_flops / shape.flops) : 0.0;
     t.factor = elimination - t.condense;
-    t.forward = (m.seconds[of(Work::forward)][v] + forward_inside) * share;
-    t.backward = m.seconds[of(Work::backward)][v] * share;
+    const double condensed = m.seconds[of(Work::forward)][v];
+    t.forward = ((condensed > 0.0 ? std::max(0.0, condensed - m.evaluate[v]) : 0.0) + forward_inside) * share;
+    t.backward = (m.seconds[of(Work::backward)][v] - m.move[v]) * share;
     t.residual = m.seconds[of(Work::residual)][v] * share;
     t.wait = m.wait[v];
     for (tree::SubdomainId s : shape.subdomains) {
@@ -182,12 +189,14 @@ records::StepProfile mean_step(const WatchedRun& run, std::size_t num_visits) {
   s.backward = wall(Work::backward);
   s.residual = wall(Work::residual);
   s.factorizations = count(Work::factor);
+  s.condensations = count(Work::forward);
   s.solutions = count(Work::backward);
+  s.checks = count(Work::residual);
+  s.evaluate = wall(Work::evaluate);
+  s.evaluations = count(Work::evaluate);
+  for (std::size_t w = 0; w < schedule::num_works; ++w) s.walks += count(static_cast<Work>(w));
   for (std::size_t w = 0; w < run.times.chunks.size(); ++w)
-    (w == of(Work::evaluate) ? s.evaluate : s.other_chunks) +=
-        (run.times.chunks[w].wall_sum - run.start.chunks[w].wall_sum) / n;
-  s.evaluations =
-      static_cast<double>(run.times.chunks[of(Work::evaluate)].count - run.start.chunks[of(Work::evaluate)].count) / n;
+    s.other_chunks += (run.times.chunks[w].wall_sum - run.start.chunks[w].wall_sum) / n;
   s.rest =
       std::max(0.0, median(run.watched) - s.evaluate - s.other_chunks - s.factor - s.forward - s.backward - s.residual);
   return s;
@@ -222,8 +231,7 @@ void predict_threads(const Found& found, const VisitMedians& m, const WatchedRun
   std::vector<records::ThreadsProfile> rows(threads.size());
   for (std::size_t k = 0; k < threads.size(); ++k) rows[k].threads = threads[k];
   const records::StepProfile step = mean_step(alone, found.shapes.visits.size());
-  const double per_step[] = {step.factorizations, step.forward > 0.0 ? step.solutions : 0.0, step.solutions,
-                             step.residual > 0.0 ? step.solutions : 0.0};
+  const double per_step[] = {step.factorizations, step.condensations, step.solutions, step.checks};
   const std::vector<double> rates =
       measure_read_rates(static_cast<std::size_t>(out.factor_bytes + out.element_bytes), threads, out.machine_threads);
   for (std::size_t k = 0; k < threads.size(); ++k) {
@@ -246,12 +254,8 @@ void predict_threads(const Found& found, const VisitMedians& m, const WatchedRun
     }
     out.walks.push_back(std::move(walk));
   }
-  const auto chunks =
-      static_cast<double>(std::max<std::size_t>(alone.times.chunks[of(Work::evaluate)].chunk.size(), 1));
-  for (records::ThreadsProfile& r : rows) {
-    const double rounds = std::ceil(chunks / r.threads);  // equal chunks are processed in rounds
-    r.predicted_step += step.rest + (step.evaluate + step.other_chunks) * rounds / chunks;
-  }
+  for (records::ThreadsProfile& r : rows)
+    r.predicted_step += step.rest + (step.evaluate + step.other_chunks) / r.threads;
   out.total = rows.front().predicted;
   out.speed = rows;
 }
@@ -295,7 +299,7 @@ records::Profile profile(const scene::Scene& given, const ProfileOptions& option
   out.num_visits = static_cast<int>(found.shapes.visits.size());
   out.solver_bytes = found.counters.memory_bytes;
   out.peak_bytes = run.summary.memory_peak_bytes;
-  const VisitMedians measured = find_medians(run.times, found.shapes.visits);
+  const VisitMedians measured = find_medians(run.times, found.shapes.visits.size());
   fill_subdomains(found, measured, out);
   fill_events(run, out);
   out.step = mean_step(run, found.shapes.visits.size());
@@ -321,7 +325,7 @@ records::Profile profile(const scene::Scene& given, const ProfileOptions& option
   };
   if (out.threads != 1) alone = run_on(1);
   const WatchedRun& one = out.threads == 1 ? run : alone;
-  predict_threads(found, find_medians(one.times, found.shapes.visits), one, out);
+  predict_threads(found, find_medians(one.times, found.shapes.visits.size()), one, out);
   for (records::ThreadsProfile& row : out.speed) {
     if (row.threads > std::max(out.machine_threads, out.threads) || (row.threads > 1 && !scene.solver.tasks)) continue;
     WatchedRun other;
@@ -330,10 +334,9 @@ records::Profile profile(const scene::Scene& given, const ProfileOptions& option
     row.measured = measured_solution(r, found.shapes.visits.size());
     row.measured_step = median(r.steps);
   }
-  const VisitMedians serial = find_medians(one.times, found.shapes.visits);
-  std::vector<double> seconds(found.shapes.visits.size(), 0.0);
-  for (Work w : walks)
-    for (std::size_t v = 0; v < seconds.size(); ++v) seconds[v] += serial.seconds[of(w)][v];
+  const VisitMedians serial = find_medians(one.times, found.shapes.visits.size());
+  std::vector<double> seconds;
+  for (std::size_t v = 0; v < found.shapes.visits.size(); ++v) seconds.push_back(serial.solver(v));
   out.costs = fit_costs(found.shapes.visits, seconds);
   out.alternatives = try_alternatives(found.graph, found.tree, scene.solver, out.threads,
                                       schedule::Threads::usual_grain_flops, out.costs, found.options);

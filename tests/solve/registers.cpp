@@ -183,7 +183,7 @@ TEST(Registers, ChainsForOneSolutionAreSweptAndMatchTheScalarPath) {
       const schedule::Threads threads(2, 0.0);
       Eigen::VectorXd again(b.size());
       ASSERT_TRUE(swept.solver.factor(threads.walker(), {}, b.data()).ok());
-      (void)swept.solver.finish(threads.walker(), b.data(), again.data());
+      (void)swept.solver.substitute(threads.walker(), b.data(), again.data(), true);
       EXPECT_TRUE(same_bits(x, again));
     }
 }
@@ -212,7 +212,7 @@ TEST(Registers, LeavesThatBranchGiveTheSameBitsInEveryVisit) {
       const tree::Walker walker = schedule::make_serial_walker();
       Eigen::VectorXd again(b.size());
       ASSERT_TRUE(s.solver.factor(walker, {}, b.data()).ok());
-      (void)s.solver.finish(walker, b.data(), again.data());
+      (void)s.solver.substitute(walker, b.data(), again.data(), true);
       EXPECT_TRUE(same_bits(x, again));
     }
 }

@@ -129,15 +129,17 @@ TEST(Symmetry, IsLookedAtInEveryFactorizationAndMatricesAreEvaluatedOnce) {
         const schedule::Threads pool(threads, 0.0);
         const auto batches = s.solver.batches();
         std::atomic<int> evaluated{0};
-        auto evaluate = [&](int, int begin, int end) {  // in the visit, as time steps do
-          for (int k = begin; k < end; ++k)
+        const solve::SolverVisits visits = s.solver.visits();
+        auto evaluate = [&](int visit) {  // in the visit, as time steps do
+          const auto v = static_cast<std::size_t>(visit);
+          for (int k = visits.batch_begin[v]; k < visits.batch_begin[v + 1]; ++k)
             for (int e : batches[static_cast<std::size_t>(k)].element)
               if (e == element) {
                 spoil(s, element, first);
                 ++evaluated;
               }
         };
-        ASSERT_TRUE(s.solver.factor(pool.walker(), solve::make_prepare(evaluate)).ok()) << scene.name;
+        ASSERT_TRUE(s.solver.factor(pool.walker(), solve::make_visit_work(evaluate)).ok()) << scene.name;
         EXPECT_EQ(s.solver.symmetry().loss, SymmetryLoss::values) << scene.name;
         EXPECT_EQ(s.solver.symmetry().element, element) << scene.name;
         EXPECT_EQ(evaluated, 1) << scene.name;

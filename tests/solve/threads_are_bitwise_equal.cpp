@@ -77,15 +77,17 @@ TEST(Threads, PrepareRunsOncePerLeafBeforeItsElementsAreUsed) {
                                         scene.elements[static_cast<std::size_t>(e)].cols()),
                   solver.element(e));
   std::vector<int> seen(static_cast<std::size_t>(scene.graph.num_elements()), 0);
-  auto body = [&](int, int begin, int end) {
-    for (int p = begin; p < end; ++p)
+  const solve::SolverVisits visits = solver.visits();
+  auto body = [&](int visit) {
+    const auto v = static_cast<std::size_t>(visit);
+    for (int p = visits.batch_begin[v]; p < visits.batch_begin[v + 1]; ++p)
       for (int e : solver.batches()[static_cast<std::size_t>(p)].element) {
         if (e < 0) continue;
         ++seen[static_cast<std::size_t>(e)];
         write_element(scene.elements[static_cast<std::size_t>(e)], solver.element(e));
       }
   };
-  ASSERT_TRUE(solver.factor(threads.walker(), solve::make_prepare(body)).ok());
+  ASSERT_TRUE(solver.factor(threads.walker(), solve::make_visit_work(body)).ok());
   for (int count : seen) EXPECT_EQ(count, 1);
   const Eigen::VectorXd b = reference.random_rhs(1);
   Eigen::VectorXd x(b.size());

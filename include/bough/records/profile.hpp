@@ -11,15 +11,16 @@ namespace bough::records {
 /// Seconds spent in one sub-domain, by kind of work; medians over the walks of a run. Sub-domains that are factored in
 /// lockstep share the time of their visit equally.
 struct SubdomainTimes {
-  double evaluate = 0.0;  ///< its elements' residuals and tangents, mean of one evaluation
+  double evaluate = 0.0;  ///< its elements' residuals, in the walk that condenses them, or else with their tangents
   double assemble = 0.0;  ///< elements and children into fronts
   double factor = 0.0;    ///< elimination, less condense
   double condense = 0.0;  ///< updates of the interface's own block: the elimination's time by their share of its flops
   double forward = 0.0;   ///< right-hand side on the way up
   double backward = 0.0;  ///< solution on the way down
+  double move = 0.0;      ///< its nodes moved, and the change of its elements measured
   double residual = 0.0;  ///< check of the solution
   double wait = 0.0;      ///< from the end of its children's factorization to its own start; not part of the sums
-  /// One factorization and one solution, without the evaluation of elements.
+  /// One factorization and one solution, without the evaluation of elements and the motion of nodes.
   double solver() const { return assemble + factor + condense + forward + backward + residual; }
 };
 
@@ -110,7 +111,9 @@ struct StepProfile {
   double evaluate = 0.0, factor = 0.0, forward = 0.0, backward = 0.0, residual = 0.0;  ///< wall time
   double other_chunks = 0.0;  ///< wall time of other loops over elements and nodes
   double rest = 0.0;          ///< total minus all of these: serial work
-  double factorizations = 0.0, solutions = 0.0, evaluations = 0.0;  ///< number per step
+  /// Numbers of walks per step: upward with and without a factorization, downward, of checks, of evaluations that
+  /// condense nothing; and of all kinds.
+  double factorizations = 0.0, condensations = 0.0, solutions = 0.0, checks = 0.0, evaluations = 0.0, walks = 0.0;
 };
 
 /// One timed visit, or one chunk of elements.

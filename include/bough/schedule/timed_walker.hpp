@@ -10,7 +10,7 @@
 namespace bough::schedule {
 
 constexpr int num_works = 6;   ///< of tree::Work
-constexpr int num_stages = 4;  ///< of tree::Stage
+constexpr int num_stages = 5;  ///< of tree::Stage
 
 /// Times of all walks of one kind over one tree [s]. Samples are rows of num_visits values; every `stride`-th walk was
 /// sampled.
@@ -19,7 +19,7 @@ struct WorkTimes {
   std::int64_t stride = 1;
   std::vector<float> visit;                          ///< duration of each visit, by sample and visit
   std::vector<float> wait;                           ///< upward walks: from the end of its last child until its start
-  std::array<std::vector<float>, num_stages> stage;  ///< parts of the visits, for factorizations only
+  std::array<std::vector<float>, num_stages> stage;  ///< parts of the visits: factor, forward, backward
   std::vector<float> wall;                           ///< duration of the whole walk, by sample
   double wall_sum = 0.0;                             ///< over all walks
 };

@@ -33,8 +33,33 @@ class AnySolver {
   void trust_symmetry(bool mirrored) {
     if (auto* s = std::get_if<Hierarchical>(&solver_)) s->trust_symmetry(mirrored);
   }
-  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}) {
-    return std::visit([&](auto& s) { return s.factor(walker, prepare); }, solver_);
+  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, VisitWork before = {}, const double* rhs = nullptr) {
+    if (auto* s = std::get_if<Hierarchical>(&solver_)) return s->factor(walker, before, rhs);
+    if (before) before(0);
+    return std::visit([&](auto& s) { return s.factor(walker); }, solver_);
+  }
+  /// num_blocks: of the graph.
+  SolverVisits visits(int num_blocks) const {
+    if (const auto* s = std::get_if<Hierarchical>(&solver_)) return s->visits();
+    return {{-1}, {0, static_cast<int>(batches().size())}, std::vector<int>(static_cast<std::size_t>(num_blocks), 0)};
+  }
+  void visit_all(const tree::Walker& walker, VisitWork work) const {
+    if (const auto* s = std::get_if<Hierarchical>(&solver_))
+      s->visit_all(walker, work);
+    else
+      work(0);
+  }
+  void condense(const tree::Walker& walker, VisitWork before, const double* rhs) {
+    if (auto* s = std::get_if<Hierarchical>(&solver_))
+      s->condense(walker, before, rhs);
+    else if (before)
+      before(0);
+  }
+  SolveReport substitute(const tree::Walker& walker, const double* rhs, double* x, bool check, VisitWork after = {}) {
+    if (auto* s = std::get_if<Hierarchical>(&solver_)) return s->substitute(walker, rhs, x, check, after);
+    const SolveReport report = solve(walker, rhs, x, check);
+    if (after) after(0);
+    return report;
   }
   /// check = false: solvers that support it omit the backward error (NaN) and iterative refinement.
   [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x, bool check = true) {

@@ -60,7 +60,7 @@ class Dual {
   std::span<const ElementBatch> batches() const;
   void rescale();
   /// Iterative: the rank is not determined, FactorStatus::deficiency is -1.
-  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {});
+  [[nodiscard]] FactorStatus factor(const tree::Walker& walker);
   /// Iterative: sets SolveReport::interface_iterations; interface_converged is false if the iteration did not converge.
   [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x);
   void multiply(const tree::Walker& walker, const double* x, double* y) const;

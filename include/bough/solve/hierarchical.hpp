@@ -40,9 +40,10 @@ class Hierarchical {
   /// batch.
   std::span<const ElementBatch> batches() const;
 
-  /// Computes the scales anew from the element matrices in the next factor(). The first factor() always does. With a
-  /// Prepare the scales are those of the matrices before it runs, so call rescale() after the element matrices have
-  /// been evaluated once.
+  /// The visits of the walks. They do not change.
+  SolverVisits visits() const;
+
+  /// Computes the scales anew from the element matrices in the next factor(). The first factor() always does.
   void rescale();
 
   /// For matrices declared symmetric. mirrored: the caller promises that every entry of the element matrices and its
@@ -51,13 +52,24 @@ class Hierarchical {
   void trust_symmetry(bool mirrored);
 
   /// Assembles, factors and condenses all sub-domains. Allocates only if delayed pivots enlarge a front, if fronts
-  /// leave lanes or registers for the first time, or if rows are dependent. With `rhs` (num_unknowns) the right-hand
-  /// side is condensed in the same visits, while a front is in the cache; finish() then solves.
-  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {}, const double* rhs = nullptr);
+  /// leave lanes or registers for the first time, or if rows are dependent. `before` writes the element matrices of each
+  /// visit; where scales are computed, which takes all matrices, in a walk of its own. With `rhs` (num_unknowns), whose
+  /// entries a visit eliminates `before` may write, too, the right-hand side is condensed in the same visits, while a
+  /// front is in the cache; substitute() then solves.
+  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, VisitWork before = {}, const double* rhs = nullptr);
 
-  /// Completes the solution for the right-hand side that was passed to factor(). Precondition: factor(.., rhs) was ok,
-  /// and nothing was solved since.
-  [[nodiscard]] SolveReport finish(const tree::Walker& walker, const double* rhs, double* x);
+  /// Condenses a right-hand side upward with the last factorization; `before` may write the entries that each visit
+  /// eliminates. Precondition: factor() was ok.
+  void condense(const tree::Walker& walker, VisitWork before, const double* rhs);
+
+  /// Solves for the right-hand side that was condensed last, which has not changed since. `after` runs in the visits
+  /// that substitute, or in a walk of its own after a solution that has to be completed first: with check, by backward
+  /// error and refinement, or where rows are dependent. x may be rhs. Precondition: it was condensed by the last
+  /// call of factor(.., rhs) or condense(), and nothing was solved since.
+  SolveReport substitute(const tree::Walker& walker, const double* rhs, double* x, bool check, VisitWork after = {});
+
+  /// Calls `work` in an upward walk that does nothing else.
+  void visit_all(const tree::Walker& walker, VisitWork work) const;
 
   /// Solves with the last factorization. rhs, x: num_unknowns, in the order of the blocks; may be the same array.
   /// Precondition: factor() was ok. If constraint rows are dependent, the multipliers are those of least norm (each

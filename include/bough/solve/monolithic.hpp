@@ -30,7 +30,7 @@ class Monolithic {
   ConstElementView element(int id) const;
   std::span<const ElementBatch> batches() const;
   void rescale();
-  [[nodiscard]] FactorStatus factor(const tree::Walker& walker, Prepare prepare = {});
+  [[nodiscard]] FactorStatus factor(const tree::Walker& walker);
   [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x);
   void multiply(const tree::Walker& walker, const double* x, double* y) const;
   const FactorStatus& last_status() const;

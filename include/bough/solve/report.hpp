@@ -116,18 +116,28 @@ struct SolverCounters {
       0;  ///< fronts that left their lane for scalar elimination with pivoting, over all factorizations.
 };
 
-/// Called at the start of a visit, before the elements are assembled, so that one task evaluates and eliminates them.
-/// begin, end: positions in Hierarchical::batches(). May run concurrently for different visits.
-struct Prepare {
-  void (*run)(void* context, int visit, int begin, int end) = nullptr;
+/// Work of the caller in the visits of a walk (SolverVisits): on the way up before the elements of a visit are assembled
+/// and its right-hand side is condensed, on the way down after its unknowns are known. May run concurrently for
+/// different visits, never for a visit before its children on the way up, or before its parent on the way down.
+struct VisitWork {
+  void (*run)(void* context, int visit) = nullptr;
   void* context = nullptr;
+  explicit operator bool() const { return run != nullptr; }
+  void operator()(int visit) const { run(context, visit); }
 };
 
-/// A Prepare that calls `body(visit, begin, end)`; body must outlive the factorization.
+/// A VisitWork that calls `body(visit)`; body must outlive the walk.
 template <class Body>
-Prepare make_prepare(Body& body) {
-  return {[](void* context, int visit, int begin, int end) { (*static_cast<Body*>(context))(visit, begin, end); },
-          &body};
+VisitWork make_visit_work(Body& body) {
+  return {[](void* context, int visit) { (*static_cast<Body*>(context))(visit); }, &body};
 }
+
+/// The visits of a solver's walks: a sub-domain, or several in lockstep. A solver without sub-domains has one.
+struct SolverVisits {
+  std::vector<int> parent;       ///< by visit; -1 at the root, which is the last. Children come before parents.
+  std::vector<int> batch_begin;  ///< by visit: its first element in batches(), and their number behind the last.
+  std::vector<int> of_block;     ///< by block: the visit that eliminates its unknowns.
+  int count() const { return static_cast<int>(parent.size()); }
+};
 
 }  // namespace bough::solve

@@ -1,15 +1,28 @@
 #pragma once
 /// Corrections of a state: solutions of the linear system, applied to nodes and multipliers, and their sizes.
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "bough/step/cpu_clock.hpp"
 #include "bough/step/element_evaluation.hpp"
 #include "bough/step/motion_tree.hpp"
+#include "bough/step/node_order.hpp"
 
 namespace bough::step {
 
 struct PairLanes;
+
+/// The increment of a node that is about to move by it, in the axes in which positions are given, and its position.
+template <class G, class S>
+struct NodeChangeOf {
+  typename G::template Vector<S> increment;
+  typename G::template Translation<S> place;
+};
+template <class G>
+struct NodeChange : NodeChangeOf<G, double> {
+  static constexpr int numbers = G::dof + G::translations;
+};
 
 /// Squared errors of predictions by polynomials of order 0, 1 and 2 through past values.
 using Misses = std::array<double, 3>;
@@ -19,18 +32,28 @@ int least_missed(const Misses& misses);
 class Corrections {
  public:
   Corrections(const plan::Plan& plan, const UnknownPlaces& places, const Instant& instant,
-              const ElementLengths& lengths, const tree::Walker& walker, CpuClock& clock, WorkCounts& counts);
+              const ElementLengths& lengths, const LinearSolution& linear, std::shared_ptr<const NodeOrder> order,
+              const tree::Walker& walker, CpuClock& clock, WorkCounts& counts);
   ~Corrections();
 
   /// Size of a correction: the largest change of relative motions, of elements' nodes with respect to each other,
   /// lengths relative to the element [-] and angles [rad], which no rigid motion of the whole changes:
   ///   |R_b w_b - R_a w_a|,  |R_b u_b - R_a u_a - (R_a w_a) x (x_b - x_a)| / length          for increments (u; w) of
   ///     nodes a and b
-  double relative_size(const State& state, const double* x) const;
-  /// Applies a solution: each node moves by its own increment, H <- H exp(eta), multipliers grow by theirs.
-  void move(State& state, const double* x) const;
-  /// The same; returns relative_size.
+  double relative_size(const State& state, const double* x);
+  /// Applies a solution: each node moves by its own increment, H <- H exp(eta), multipliers grow by theirs. Returns
+  /// relative_size.
   double apply(State& state, const double* x);
+
+  /// The same in the visits of a downward walk, each of which knows the part of x that its nodes and multipliers, and
+  /// those of its parents, have. `move(begin, end, changes)` moves a range of NodeOrder::eights() and stores their
+  /// changes, by node; the multipliers of the visit grow by those of x; and the relative motions of its elements are
+  /// measured. Signals are left as they are.
+  template <class G, class Move>
+  void apply_in_visit(int visit, State& state, const double* x, Move&& move);
+  /// relative_size of the solution that all visits have applied.
+  double applied_size() const;
+  void add_signals(State& state, const double* x, double factor) const;
   /// Applies `factor` of a solution, nodes carrying each other along the motion tree; statics only (State's dq does not
   /// change).
   ///   S_b = (H_ab^-1 S_a H_ab) exp(factor (eta_b - Ad(H_ab)^-1 eta_a)),  H_b <- H_b S_b   for a node b that a carries
@@ -50,7 +73,10 @@ class Corrections {
   void note_multipliers(const State& start, State& state) const;
 
  private:
-  void find_pairs();
+  void find_pairs(const LinearSolution& linear);
+  template <class G>
+  void measure_pairs(std::int64_t begin, std::int64_t end);
+  void add_multipliers(State& state, const double* x, double factor, std::int64_t begin, std::int64_t end) const;
 
   const plan::Plan& plan_;
   const UnknownPlaces& places_;
@@ -59,9 +85,25 @@ class Corrections {
   tree::Walker walker_;
   CpuClock& clock_;
   WorkCounts& counts_;
-  MotionTree motion_tree_;        ///< empty in dynamics
+  MotionTree motion_tree_;  ///< empty in dynamics
+  std::shared_ptr<const NodeOrder> order_;
   std::vector<PairLanes> pairs_;  ///< pairs of nodes whose relative motions relative_size measures
-  mutable std::vector<double> chunk_max_;
+  VisitRanges pairs_by_visit_, multipliers_by_visit_;
+  std::vector<UnknownPlaces::Multiplier> multipliers_;  ///< visit after visit
+  std::vector<double> pair_sizes_;                      ///< squares; by chunk of pairs at the place of its first
+  template <class G>
+  using ChangesOn = std::vector<NodeChange<G>>;
+  motion::Groups::OneOf<ChangesOn> changes_;  ///< by node
 };
+
+template <class G, class Move>
+void Corrections::apply_in_visit(int visit, State& state, const double* x, Move&& move) {
+  NodeChange<G>* const changes = std::get<ChangesOn<G>>(changes_).data();
+  order_->by_visit().for_each(walker_, visit, eight_grain,
+                              [&](std::int64_t begin, std::int64_t end) { move(begin, end, changes); });
+  add_multipliers(state, x, 1.0, multipliers_by_visit_.begin(visit), multipliers_by_visit_.end(visit));
+  pairs_by_visit_.for_each(walker_, visit, pair_grain,
+                           [this](std::int64_t begin, std::int64_t end) { measure_pairs<G>(begin, end); });
+}
 
 }  // namespace bough::step

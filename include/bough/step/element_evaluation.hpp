@@ -34,8 +34,12 @@ class ElementEvaluation {
 
   /// To be called when the frames of prescribed motion of the instant have moved.
   void take_frames();
-  /// Evaluates all elements on the group of the scene and writes their parts and, if `tangent`, their tangents.
-  void evaluate(const State& state, const elements::Slopes& slopes, bool tangent);
+  /// Begins the evaluation of all elements on the group of the scene at a state, which must stay as it is until they
+  /// are evaluated.
+  void begin(const State& state, const elements::Slopes& slopes, bool tangent);
+  /// Evaluates the elements of a visit of the solver's walks, writes their parts and, if so begun, their tangents. Some
+  /// are evaluated with elements of a visit below, where all lanes are needed. Several threads may do so.
+  void evaluate_visit(int visit);
   /// Writes the parts of elements evaluated in space, as sensors see them, taken to the unknowns of a reduced model;
   /// without magnitudes. Nodes keep other digits there than they have in space, so these elements respond with other
   /// forces.
@@ -52,7 +56,7 @@ class ElementEvaluation {
 
  private:
   template <class G>
-  void evaluate_on(const State& state, const elements::FieldOn<G, double>& field, bool tangent);
+  void evaluate_batches(const elements::FieldOn<G, double>& field, std::int64_t begin, std::int64_t end);
   template <class G>
   void evaluate_alone(std::size_t id, const State& state, const elements::FieldOn<G, double>& field,
                       const ElementResults& to);
@@ -68,6 +72,12 @@ class ElementEvaluation {
   template <class G>
   using LanesOn = std::unique_ptr<LaneBatches<G>>;
   motion::Groups::OneOf<LanesOn> lanes_;  ///< on the group of the scene
+  // Of the present evaluation.
+  template <class G>
+  using FieldOf = elements::FieldOn<G, double>;
+  motion::Groups::OneOf<FieldOf> field_;
+  const State* state_ = nullptr;
+  bool with_tangents_ = false;
 };
 
 }  // namespace bough::step

@@ -3,6 +3,7 @@
 /// ask it whether the factor at hand will do; how much of a solution is checked is its own affair.
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,13 +48,26 @@ class LinearSolution {
   solve::AnySolver& solver() { return *solver_; }
   const solve::AnySolver& solver() const { return *solver_; }
 
+  /// The visits of the solver's walks, and the elements of one.
+  const solve::SolverVisits& visits() const { return visits_; }
+  std::span<const int> elements_of_visit(int visit) const;
+  /// Calls `work` in an upward walk.
+  void visit_all(solve::VisitWork work) const { solver_->visit_all(walker_, work); }
+
   /// To be called before element matrices are written: what is known of those present holds no longer. are_symmetric:
   /// they will be, to the last bit.
   void begin_matrices(bool are_symmetric = false);
   /// Counts the calls of begin_matrices: what was derived from the element matrices holds while it does not change.
   long num_matrices() const { return num_matrices_; }
-  /// Factors the element matrices now present, made with these slopes.
-  [[nodiscard]] std::optional<Trouble> factor(bool rescale, const elements::Slopes& slopes);
+  /// Factors the element matrices, made with these slopes: those now present, or those that `before` writes in the
+  /// visits of the walk. With rhs, which `before` may write, too, the right-hand side is condensed in the same walk.
+  [[nodiscard]] std::optional<Trouble> factor(bool rescale, const elements::Slopes& slopes,
+                                              solve::VisitWork before = {}, const double* rhs = nullptr);
+  /// Condenses a right-hand side, whose entries `before` writes, upward with the present factor.
+  void condense(solve::VisitWork before, const double* rhs);
+  /// x <- A^-1 rhs for the right-hand side that was condensed last, downward. `after` runs in every visit when its
+  /// unknowns are known. The backward error is checked as often as by solve(.., false).
+  [[nodiscard]] std::optional<Trouble> substitute(const double* rhs, double* x, solve::VisitWork after);
   /// Whether the present factor was made with these slopes (of some earlier state).
   bool has_factor(const elements::Slopes& slopes) const;
   /// Whether it is that of the element matrices now present.
@@ -88,6 +102,8 @@ class LinearSolution {
 
  private:
   std::string explain_singular(const solve::FactorStatus& status) const;
+  bool may_skip_check();
+  std::optional<Trouble> judge(const solve::SolveReport& solution);
 
   /// Solutions from one check of the backward error to the next: on chains a check takes as long as the solution
   /// itself.
@@ -103,6 +119,9 @@ class LinearSolution {
   WorkCounts& counts_;
   std::unique_ptr<tree::Tree> tree_;
   std::unique_ptr<solve::AnySolver> solver_;
+  solve::SolverVisits visits_;
+  std::vector<int> elements_;               ///< in the order of visits
+  std::vector<std::size_t> element_begin_;  ///< by visit, and their number
   solve::SolveReport last_solution_;
   elements::Slopes factored_;  ///< slopes of the present factor
   bool is_factored_ = false;

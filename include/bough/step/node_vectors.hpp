@@ -1,40 +1,54 @@
 #pragma once
-/// A motion vector of each node, eight nodes in the lanes of a pack, as the passes over all nodes compute with them.
+/// A motion vector of each node, eight nodes in the lanes of a pack, as the passes over nodes compute with them.
+#include <memory>
 #include <vector>
 
 #include "bough/elements/evaluate_lanes.hpp"
+#include "bough/step/node_order.hpp"
 
 namespace bough::step {
 
-/// Lanes behind the last node repeat it, so that maxima over lanes need no special case.
+/// All vectors are zero until they get an order. Lanes behind the last node of an eight repeat it.
 template <class G>
 class NodeVectors {
  public:
   using Vector = typename G::template Vector<double>;
   using Lanes = typename G::template Vector<elements::LanePack>;
 
-  void assign_zero(std::size_t count) {
-    count_ = count;
-    lanes_.assign((count + width - 1) / width, Lanes::zero());
+  /// Zero for all nodes of this order.
+  void assign_zero(const std::shared_ptr<const NodeOrder>& order) {
+    order_ = order;
+    lanes_.assign(order->eights().size(), Lanes::zero());
+  }
+  /// Keeps the vectors and takes another order, if it is another one.
+  void arrange(const std::shared_ptr<const NodeOrder>& order) {
+    if (order_ == order) return;
+    const NodeVectors before = *this;
+    assign_zero(order);
+    if (before.order_ == nullptr) return;
+    for (std::size_t n = 0; n < order->num_nodes(); ++n) set(n, before[n]);
   }
   void resize_as(const NodeVectors& like) {
-    count_ = like.count_;
+    order_ = like.order_;
     lanes_.resize(like.lanes_.size());
   }
 
-  Vector operator[](std::size_t n) const { return lanes::get_lane(lanes_[n / width], static_cast<int>(n % width)); }
-  void set(std::size_t n, const Vector& v) {
-    const std::size_t end = n + 1 == count_ ? width : n % width + 1;
-    for (std::size_t l = n % width; l < end; ++l)
-      for (int i = 0; i < G::dof; ++i) lanes_[n / width][i].set(static_cast<int>(l), v[i]);
+  Vector operator[](std::size_t node) const {
+    if (order_ == nullptr) return Vector::zero();
+    const NodeOrder::Place at = order_->place(node);
+    return lanes::get_lane(lanes_[at.eight], at.lane);
   }
-  /// Eight nodes, the first of which is `first`, a multiple of eight.
-  Lanes& eight(std::size_t first) { return lanes_[first / width]; }
-  const Lanes& eight(std::size_t first) const { return lanes_[first / width]; }
+  void set(std::size_t node, const Vector& v) {
+    const NodeOrder::Place at = order_->place(node);
+    for (int l = at.lane; l < at.lane + at.copies; ++l)
+      for (int i = 0; i < G::dof; ++i) lanes_[at.eight][i].set(l, v[i]);
+  }
+  /// The vectors of NodeOrder::eights()[k].
+  Lanes& eight(std::size_t k) { return lanes_[k]; }
+  const Lanes& eight(std::size_t k) const { return lanes_[k]; }
 
  private:
-  static constexpr std::size_t width = elements::num_lanes;
-  std::size_t count_ = 0;
+  std::shared_ptr<const NodeOrder> order_;
   std::vector<Lanes> lanes_;
 };
 

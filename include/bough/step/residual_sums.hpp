@@ -7,7 +7,7 @@
 
 #include "bough/step/linear_solution.hpp"
 #include "bough/step/unknown_places.hpp"
-#include "bough/tree/walker.hpp"
+#include "bough/step/visit_ranges.hpp"
 
 namespace bough::step {
 
@@ -27,7 +27,7 @@ struct ResidualSize {
 class ResidualSums {
  public:
   /// trimmed: may be null.
-  ResidualSums(const plan::Plan& plan, const UnknownPlaces& places, const BlockOwners& owners,
+  ResidualSums(const plan::Plan& plan, const UnknownPlaces& places, const LinearSolution& linear,
                const TrimmedElements* trimmed);
 
   /// The parts of element e begin at 2 begins()[e]: for each of its nodes, then for its rows, the entries of the
@@ -41,10 +41,14 @@ class ResidualSums {
   void clear_signals();
   void set_signal(int signal, std::size_t unknown, double residual, double size_of_terms);
 
-  /// Adds up the parts of all elements.
-  void sum(const tree::Walker& walker);
-  /// The residual, by unknown.
+  /// Adds up what elements have contributed to the blocks whose unknowns a visit of the solver's walks eliminates. All
+  /// of these are elements of this visit and of those below it.
+  void sum_visit(int visit, const tree::Walker& walker);
+  /// Adds up the forces on held nodes, which have no unknowns. To be called after all visits.
+  void sum_held();
+  /// The residual, by unknown, and minus the residual.
   const std::vector<double>& values() const { return residual_; }
+  const std::vector<double>& right_hand_side() const { return right_hand_side_; }
   /// Without the worst nodes and joint, which name_worst finds, for messages.
   ResidualSize size() const;
   void name_worst(ResidualSize& size) const;
@@ -67,24 +71,31 @@ class ResidualSums {
     bool is_finite;
   };
 
-  void place_parts(const BlockOwners& owners, const TrimmedElements* trimmed);
+  /// Sums of one visit, or of held nodes: nodes, then points, then joints.
+  struct Chunk {
+    std::size_t begin, nodes_end, points_end, end;
+  };
+
+  void place_parts(const LinearSolution& linear, const TrimmedElements* trimmed);
+  void add_chunks(std::size_t begin, std::size_t nodes, std::size_t points);
   template <int Count>
   ChunkSize sum_nodes(std::size_t begin, std::size_t end);
   void copy_rows(std::size_t begin, std::size_t end, ChunkSize& chunk);
   std::array<double, 12> add_up(const Sum& sum) const;
   void sum_point(const Sum& sum, ChunkSize& chunk);
   void sum_held_node(const Sum& sum, ChunkSize& chunk) const;
-  void sum_chunk(std::int64_t begin, std::int64_t end);
+  void sum_chunk(std::size_t chunk);
 
   const plan::Plan& plan_;
   const UnknownPlaces& places_;
   std::vector<std::int64_t> element_begin_;  ///< by element: number of unknowns of all elements before it
   std::vector<double> parts_;
-  std::vector<Sum> sums_;  ///< nodes, points, joints, held nodes, each in the order of blocks
-  std::int64_t num_node_sums_ = 0, num_point_sums_ = 0, num_row_sums_ = 0;
+  std::vector<Sum> sums_;  ///< visit after visit, then held nodes
+  std::vector<Chunk> chunks_;
+  VisitRanges chunks_by_visit_;
   std::vector<std::int64_t> uses_;  ///< offsets in parts_ of the parts that add up, in a fixed order
-  std::vector<double> residual_;
-  std::vector<ChunkSize> chunk_sizes_;        ///< by chunk of sums
+  std::vector<double> residual_, right_hand_side_;
+  std::vector<ChunkSize> chunk_sizes_;        ///< by chunk
   double signal_share_ = 0.0;                 ///< the largest share of a signal's residual in its terms
   int worst_signal_ = -1, lost_signal_ = -1;  ///< the signal of that, and one whose residual is not finite
   std::vector<char> is_length_;               ///< by unknown: whether it is the multiplier of a constraint of a length

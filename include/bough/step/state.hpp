@@ -78,6 +78,12 @@ struct State {
     in_space_.nodes.clear();
     return std::get<NodesOn<G>>(nodes_);
   }
+  /// To be changed by several threads: begin_change() is to be called before, by one.
+  void begin_change() { in_space_.nodes.clear(); }
+  template <class G>
+  NodesOn<G>& changing() {
+    return std::get<NodesOn<G>>(nodes_);
+  }
   /// Calls f(nodes) on the scene's group.
   template <class F>
   decltype(auto) visit(F&& f) const {

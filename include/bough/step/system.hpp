@@ -9,6 +9,7 @@
 #include "bough/step/element_evaluation.hpp"
 #include "bough/step/instant.hpp"
 #include "bough/step/linear_solution.hpp"
+#include "bough/step/node_order.hpp"
 #include "bough/step/residual_sums.hpp"
 #include "bough/step/round_off.hpp"
 #include "bough/step/signals.hpp"
@@ -27,8 +28,8 @@ struct Workspace {
     Misses misses{};                      ///< of accelerations
     double error = 0.0, increment = 0.0;  ///< as State::local_error and State::increment
   };
-  std::vector<StepEnd> step_ends;  ///< by chunk of nodes
-  std::vector<double> chunk_most;  ///< by chunk of nodes: the largest of something
+  std::vector<StepEnd> step_ends;  ///< by chunk of eights
+  std::vector<double> eight_most;  ///< by eight of nodes: the largest of something
 };
 
 class HeldNodes;
@@ -62,6 +63,7 @@ class System {
   Corrections& corrections() { return corrections_; }
   const Corrections& corrections() const { return corrections_; }
   const Constraints& constraints() const { return constraints_; }
+  const std::shared_ptr<const NodeOrder>& node_order() const { return node_order_; }
   /// ElementLengths::moment_arm.
   double moment_arm() const { return lengths_.moment_arm; }
 
@@ -70,10 +72,18 @@ class System {
   [[nodiscard]] std::optional<Trouble> set_time(double time, laws::Side side = laws::Side::left);
   /// Evaluates all elements, with their tangents if `tangent`, and adds their residuals up.
   [[nodiscard]] std::optional<Trouble> evaluate(const State& state, const elements::Slopes& slopes, bool tangent);
+  /// The same in one upward walk with the condensation of the right-hand side, minus the residual, by the present
+  /// factorization: LinearSolution::substitute completes the solution.
+  [[nodiscard]] std::optional<Trouble> evaluate_and_condense(const State& state, const elements::Slopes& slopes);
+  /// The same with tangents and a new factorization. `of_factor`: receives what it reports, if the evaluation succeeds.
+  [[nodiscard]] std::optional<Trouble> evaluate_and_factor(const State& state, const elements::Slopes& slopes,
+                                                           bool rescale, std::optional<Trouble>& of_factor);
   /// Adds up what elements have written. A sum that is not finite is reported with the owner of the element.
   [[nodiscard]] std::optional<Trouble> sum(const State& state);
   /// Of the last evaluation, by unknown.
   const std::vector<double>& residual() const { return sums_.values(); }
+  /// Minus that.
+  const std::vector<double>& right_hand_side() const { return sums_.right_hand_side(); }
   ResidualSize residual_size() const { return sums_.size(); }
 
   /// Computes the multipliers of joints that hold nodes without unknowns (Plan::held) from the balance of forces at
@@ -84,6 +94,10 @@ class System {
   double largest_held_impulse(const State& state, const double* x) const;
 
  private:
+  void begin(const State& state, const elements::Slopes& slopes, bool tangent);
+  std::optional<Trouble> end(const State& state);
+  solve::VisitWork in_visits();
+
   const plan::Plan& plan_;
   tree::Walker walker_;
   CpuClock clock_;
@@ -92,6 +106,7 @@ class System {
   Instant instant_;
   UnknownPlaces places_;
   ElementLengths lengths_;
+  std::shared_ptr<const NodeOrder> node_order_;
   Constraints constraints_;
   std::unique_ptr<TrimmedElements> trimmed_;  ///< null where all nodes have the same unknowns
   std::unique_ptr<HeldNodes> held_;           ///< null where all nodes have unknowns

@@ -11,7 +11,7 @@ namespace bough::tree {
 enum class Work : std::uint8_t { other, evaluate, factor, forward, backward, residual };
 
 /// Part of one visit.
-enum class Stage : std::uint8_t { evaluate, assemble, eliminate, forward };
+enum class Stage : std::uint8_t { evaluate, assemble, eliminate, forward, substitute };
 
 /// Called by a visit at the end of a stage; does nothing unless the walk is timed.
 struct Mark {
