@@ -36,10 +36,9 @@ void estimate_solution_error(step::System& system, const step::State& state, Sum
   if (system.counts().factorizations == 0) return;
   constexpr double least_motion = 1e-12;  // of the size of the structure: less is a few roundings of positions
   const plan::Plan& plan = system.plan();
-  std::vector<double> rhs(system.places().size()), x(system.places().size());
+  std::vector<double> x(system.places().size());
   if (system.evaluate(state, {}, false)) return;
-  for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
-  if (system.linear().solve(rhs.data(), x.data())) return;
+  if (system.linear().solve(system.right_hand_side().data(), x.data())) return;
   double moved = least_motion, shift = 0.0;
   const std::vector<elements::NodeMotion>& nodes = nodes_in_space(system.plan(), state);
   for (std::size_t n = 0; n < nodes.size(); ++n) {

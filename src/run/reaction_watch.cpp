@@ -126,7 +126,7 @@ std::string ReactionWatch::misplaced() const {
 std::optional<step::Trouble> ReactionWatch::look(step::System& system, const step::State& state) {
   std::vector<double>&rhs = system.work().rhs, &x = system.work().x;
   if (auto t = system.evaluate(state, {}, false)) return t;
-  for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
+  rhs = system.right_hand_side();
   if (auto t = system.linear().solve(rhs.data(), x.data())) return t;
   for (Watched& w : joints_) {
     double error = 0.0, size = 0.0;

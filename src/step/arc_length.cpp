@@ -148,11 +148,11 @@ void ArcLengthPath::take_spring_out() {
 /// Computes tangent_ = K^-1 (-dR/df). K (with its spring) must be factored and R evaluated at this load factor. On
 /// return the laws are set to the load factor.
 std::optional<Trouble> ArcLengthPath::solve_load(const State& state, double load_factor) {
-  for (std::size_t i = 0; i < load_.size(); ++i) load_[i] = system_.residual()[i];
+  load_ = system_.right_hand_side();
   const double step = load_difference * std::max(1.0, std::abs(load_factor));
   if (auto t = system_.set_time(load_factor + step)) return t;
   if (auto t = system_.evaluate(state, {}, false)) return t;
-  for (std::size_t i = 0; i < load_.size(); ++i) load_[i] = (load_[i] - system_.residual()[i]) / step;
+  for (std::size_t i = 0; i < load_.size(); ++i) load_[i] = (system_.right_hand_side()[i] - load_[i]) / step;
   if (auto t = system_.set_time(load_factor)) return t;
   return system_.linear().solve(load_.data(), tangent_.data());
 }
@@ -249,7 +249,7 @@ StepReport ArcLengthPath::follow(State& state, double length) {
                     " iterations: " + describe(system_, report.residual, options_.tolerance));
     }
     if (const auto t = factor(k == 0)) return fail(t->text);
-    for (std::size_t i = 0; i < correction_.size(); ++i) load_[i] = -system_.residual()[i];
+    load_ = system_.right_hand_side();
     if (const auto t = system_.linear().solve(load_.data(), correction_.data())) return fail(t->text);
     if (const auto t = solve_load(state, state.time)) return fail(t->text);
     set_moved(state);

@@ -30,12 +30,12 @@ void apply_damped(System& system, State& state, double size) {
   State& before = system.work().before;
   before = state;
   double start = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) start += system.residual()[i] * x[i];
+  for (std::size_t i = 0; i < x.size(); ++i) start += system.right_hand_side()[i] * x[i];
   double s = 1.0;
   for (int k = 1;; ++k) {
     system.corrections().apply_along_tree(state, x.data(), s);
     const bool finite = !system.evaluate(state, {}, false);
-    const double g = finite ? system.corrections().power_along_tree(system.residual().data(), x.data()) : 0.0;
+    const double g = finite ? system.corrections().power_along_tree(system.right_hand_side().data(), x.data()) : 0.0;
     if (finite && (g * start >= 0.0 || std::abs(g) <= loose * std::abs(start))) return;
     if (k == max_trials) return;
     s *= finite ? std::clamp(start / (start - g), 0.1, 0.9) : 0.5;
@@ -72,7 +72,7 @@ StepReport try_load(System& system, State& state, const StepOptions& options, do
     }
     if (const auto t = system.linear().factor(k == 0, {}))
       return fail(k == 0 ? t->text : "iteration " + std::to_string(k) + " came to a shape at which " + t->text);
-    for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
+    rhs = system.right_hand_side();
     if (const auto t = system.linear().solve(rhs.data(), x.data())) return fail(t->text);
     previous = report.change;
     report.change = system.corrections().relative_size(state, x.data());

@@ -29,14 +29,14 @@ class Filter {
   bool multiply(bool by_mass, const std::vector<double>& x, std::vector<double>& y) {
     y.assign(x.size(), 0.0);
     if (system_.evaluate(state_, {}, false)) return false;
-    for (std::size_t i = 0; i < y.size(); ++i) y[i] = -system_.residual()[i];
+    y = system_.right_hand_side();
     moved_.change_all([&]<class G>(NodesOn<G>& nodes) {
       nodes.motion = state_.on<G>().motion;
       for (std::size_t n = 0; n < nodes.motion.size(); ++n)
         (by_mass ? nodes.motion[n].a : nodes.motion[n].v) += system_.places().part_on<G>(x.data(), static_cast<int>(n));
     });
     if (system_.evaluate(moved_, {}, false)) return false;
-    for (std::size_t i = 0; i < y.size(); ++i) y[i] += system_.residual()[i];
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] -= system_.right_hand_side()[i];
     return true;
   }
   /// y = P x.

@@ -150,10 +150,10 @@ std::optional<Trouble> LocalError::measure(System& system, const State& after) {
   // difference does not cancel.
   const double c2 = (1.0 - alpha_.alpha_m) / ((1.0 - alpha_.alpha_f) * alpha_.beta * h * h);
   if (auto t = system.evaluate(after, {}, false)) return t;  // maybe not evaluated since the last correction
-  for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
+  rhs = system.right_hand_side();
   shift_accelerations(after, shifted_);
   if (auto t = system.evaluate(shifted_, {}, false)) return t;
-  for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = c2 * (rhs[i] + system.residual()[i]);
+  for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = c2 * (rhs[i] - system.right_hand_side()[i]);
   if (auto t = system.linear().solve(rhs.data(), x.data())) return t;
   Largest change;
   ErrorParts most;

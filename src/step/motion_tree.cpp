@@ -269,7 +269,7 @@ void Corrections::apply_along_tree(State& state, const double* x, double factor)
   add_multipliers(state, x, factor);
 }
 
-double Corrections::power_along_tree(const double* residual, const double* x) {
+double Corrections::power_along_tree(const double* forces, const double* x) {
   MotionTree& tree = motion_tree_;
   auto by_group = [&](std::int64_t begin, std::int64_t end) {
     for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
@@ -289,10 +289,10 @@ double Corrections::power_along_tree(const double* residual, const double* x) {
     if (link.parent >= 0)
       tree.twists[node] +=
           motion::inverse_adjoint_times(tree.relative[node], tree.twists[static_cast<std::size_t>(link.parent)]);
-    power += lanes::dot(places_.node_part(residual, link.node), tree.twists[node]);
+    power += lanes::dot(places_.node_part(forces, link.node), tree.twists[node]);
   }
-  for (const UnknownPlaces::Multiplier& at : places_.multipliers()) power += residual[at.unknown] * x[at.unknown];
-  for (const std::size_t unknown : places_.signals()) power += residual[unknown] * x[unknown];
+  for (const UnknownPlaces::Multiplier& at : places_.multipliers()) power += forces[at.unknown] * x[at.unknown];
+  for (const std::size_t unknown : places_.signals()) power += forces[unknown] * x[unknown];
   return power;
 }
 

@@ -51,11 +51,7 @@ struct Registers {
 
 ResidualSums::ResidualSums(const plan::Plan& plan, const UnknownPlaces& places, const LinearSolution& linear,
                            const TrimmedElements* trimmed)
-    : plan_(plan),
-      places_(places),
-      residual_(places.size(), 0.0),
-      right_hand_side_(places.size(), 0.0),
-      is_length_(places.size(), 0) {
+    : plan_(plan), places_(places), right_hand_side_(places.size(), 0.0), is_length_(places.size(), 0) {
   place_parts(linear, trimmed);
   for (const UnknownPlaces::Multiplier& m : places.multipliers()) is_length_[m.unknown] = m.is_of_length;
   chunk_sizes_.resize(chunks_.size(), {{}, true});
@@ -142,11 +138,8 @@ ResidualSums::ChunkSize ResidualSums::sum_nodes(std::size_t begin, std::size_t e
     for (std::int64_t use = to.use_begin; use < to.use_end; ++use)
       sums.add(parts_.data() + uses_[static_cast<std::size_t>(use)]);
     sums.note_sizes();
-    double *const r = residual_.data() + to.unknown, *const b = right_hand_side_.data() + to.unknown;
-    for (int i = 0; i < Count; ++i) {
-      r[i] = sums[i];
-      b[i] = -r[i];
-    }
+    double* const b = right_hand_side_.data() + to.unknown;
+    for (int i = 0; i < Count; ++i) b[i] = -sums[i];
   }
   const std::array<std::int64_t, 2 * Count> most = sums.largest();
   double sum_of[6] = {}, terms_of[6] = {};
@@ -172,13 +165,12 @@ void ResidualSums::copy_rows(std::size_t begin, std::size_t end, ChunkSize& chun
   for (std::size_t k = begin; k < end; ++k) {
     const Sum& to = sums_[k];
     const double* const from = parts_.data() + uses_[static_cast<std::size_t>(to.use_begin)];
-    double *const r = residual_.data() + to.unknown, *const b = right_hand_side_.data() + to.unknown;
+    double* const b = right_hand_side_.data() + to.unknown;
     const char* const is_length = is_length_.data() + to.unknown;
     for (int i = 0; i < to.size; ++i) {
-      r[i] = from[i];
-      b[i] = -r[i];
+      b[i] = -from[i];
       std::int64_t& size = most[static_cast<std::size_t>(is_length[i])];
-      size = std::max(size, size_bits(r[i]));
+      size = std::max(size, size_bits(b[i]));
     }
   }
   chunk.is_finite &= std::max(most[0], most[1]) < bits_of_infinity;
@@ -200,12 +192,11 @@ std::array<double, 12> ResidualSums::add_up(const Sum& sum) const {
 void ResidualSums::sum_point(const Sum& sum, ChunkSize& chunk) {
   const std::array<double, 12> total = add_up(sum);
   const auto count = static_cast<std::size_t>(plan_.unknowns.count);
-  double *const r = residual_.data() + sum.unknown, *const b = right_hand_side_.data() + sum.unknown;
+  double* const b = right_hand_side_.data() + sum.unknown;
   for (std::size_t i = 0; i < static_cast<std::size_t>(sum.size); ++i) {
-    r[i] = total[i];
-    b[i] = -r[i];
-    chunk.is_finite &= size_bits(r[i]) < bits_of_infinity;
-    chunk.size.force = std::max(chunk.size.force, std::abs(r[i]));
+    b[i] = -total[i];
+    chunk.is_finite &= size_bits(b[i]) < bits_of_infinity;
+    chunk.size.force = std::max(chunk.size.force, std::abs(b[i]));
     chunk.size.force_scale = std::max(chunk.size.force_scale, total[count + i]);
   }
 }
@@ -267,7 +258,6 @@ void ResidualSums::clear_signals() {
 }
 
 void ResidualSums::set_signal(int signal, std::size_t unknown, double residual, double size_of_terms) {
-  residual_[unknown] = residual;
   right_hand_side_[unknown] = -residual;
   if (!std::isfinite(residual)) lost_signal_ = signal;
   const double share = residual == 0.0 ? 0.0 : std::abs(residual) / size_of_terms;
@@ -282,7 +272,8 @@ void ResidualSums::name_worst(ResidualSize& size) const {
     const Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
     for (std::size_t k = chunk.begin; k < chunk.points_end; ++k) {
       const Sum& sum = sums_[k];
-      const NodeSize now = size_up(plan_.unknowns, static_cast<std::size_t>(sum.owner), residual_.data() + sum.unknown);
+      const NodeSize now =
+          size_up(plan_.unknowns, static_cast<std::size_t>(sum.owner), right_hand_side_.data() + sum.unknown);
       if (now.force > most.force) size.worst_force_node = sum.owner;
       if (now.moment > most.moment) size.worst_moment_node = sum.owner;
       most.force = std::max(most.force, now.force);
@@ -290,7 +281,7 @@ void ResidualSums::name_worst(ResidualSize& size) const {
     }
     for (std::size_t k = chunk.points_end; k < chunk.end; ++k)
       for (int i = 0; i < sums_[k].size; ++i) {
-        const double violation = std::abs(residual_[static_cast<std::size_t>(sums_[k].unknown + i)]);
+        const double violation = std::abs(right_hand_side_[static_cast<std::size_t>(sums_[k].unknown + i)]);
         if (violation <= most.length) continue;
         most.length = violation;
         size.worst_joint = sums_[k].owner;

@@ -19,7 +19,7 @@ void find_unsettled(System& system, State& state) {
   Workspace& work = system.work();
   LinearSolution& linear = system.linear();
   if (evaluate_as_seen(system, state)) return;
-  for (std::size_t i = 0; i < work.rhs.size(); ++i) work.rhs[i] = -system.residual()[i];
+  work.rhs = system.right_hand_side();
   if (!linear.is_of_matrices() && linear.factor(false, {})) return;
   if (linear.solve(work.rhs.data(), work.x.data())) return;
   const std::size_t num_nodes = system.plan().nodes.size();

@@ -144,7 +144,7 @@ std::optional<Trouble> solve_accelerations(System& system, State& state) {
   system.signals().follow_motion(state);
   if (auto t = system.evaluate(state, mass_slopes, false)) return t;
   system.constraints().series(state, nullptr, 0.0, series);
-  for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -system.residual()[i];
+  rhs = system.right_hand_side();
   set_rows(system, rhs, [&](std::size_t m) { return -2.0 * series[m].c[2]; });
   if (auto t = system.linear().solve(rhs.data(), x.data())) return t;
   state.change_all([&]<class G>(NodesOn<G>& nodes) {

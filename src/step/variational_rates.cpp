@@ -157,7 +157,7 @@ std::optional<Trouble> VariationalOn<G>::solve_accelerations(State& state, doubl
   for (auto& n : mid.motion) n.a = Vector::zero();
   if (auto t = system_.evaluate(mid_, {}, false)) return t;
   for (std::size_t n = 0; n < D_.size(); ++n) {
-    goal_[n] = -1.0 * system_.places().part_on<G>(system_.residual().data(), static_cast<int>(n));
+    goal_[n] = system_.places().part_on<G>(system_.right_hand_side().data(), static_cast<int>(n));
     mid.motion[n].v = nodes(state)[n].a;
   }
   if (auto t = solve_mass(mid_, state.multipliers, h, 1e-12)) return t;

@@ -39,7 +39,7 @@ TangentMatrix tangent_matrix(const scene::Scene& scene) {
       t.column_scale = Eigen::Map<const Eigen::VectorXd>(h->column_scale().data(), n);
     }
     t.scaled = t.row_scale.asDiagonal() * t.matrix * t.column_scale.asDiagonal();
-    t.rhs = -Eigen::Map<const Eigen::VectorXd>(system.residual().data(), n);
+    t.rhs = Eigen::Map<const Eigen::VectorXd>(system.right_hand_side().data(), n);
     t.solution.resize(n);
     const solve::SolveReport solved = system.linear().solver().solve(system.walker(), t.rhs.data(), t.solution.data());
     if (!solved.finite) trouble = "the solution of the linear system is not finite";

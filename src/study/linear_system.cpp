@@ -150,7 +150,7 @@ void fill(step::System& system, step::State state, const run::BeforeStep& attemp
     out.trouble = trouble->text;
     return;
   }
-  for (double r : system.residual()) out.rhs.push_back(-r);
+  out.rhs = system.right_hand_side();
   out.matrix = make_matrix(system);
   out.solution.resize(out.rhs.size());
   trouble = system.linear().factor(true, slopes);

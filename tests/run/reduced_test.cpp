@@ -122,8 +122,8 @@ void compare(const scene::Scene& scene, const elements::Slopes& slopes) {
     ASSERT_FALSE(rig->system.evaluate(rig->state, slopes, true));
   }
   // The residual in space has no part out of the plane, and the part in it is that of the planar elements.
-  const std::vector<double> residual = expand(flat, whole, flat.system.residual());
-  EXPECT_LT(largest_difference(residual, whole.system.residual()), 1e-12 * largest_of(residual));
+  const std::vector<double> residual = expand(flat, whole, flat.system.right_hand_side());
+  EXPECT_LT(largest_difference(residual, whole.system.right_hand_side()), 1e-12 * largest_of(residual));
   // So for the tangent, column by column.
   std::vector<double> x(flat.system.places().size(), 0.0), product(x.size()), other(whole.system.places().size());
   for (std::size_t i = 0; i < x.size(); ++i) {

@@ -76,7 +76,7 @@ TEST(HeldNodes, are_struck_out_of_the_equations_and_nothing_else_is) {
         for (std::size_t i = 0; i < v.size(); ++i) v[i] *= mask[i];
         return v;
       };
-      EXPECT_EQ(expand(held, whole, held.system.residual()), left(whole.system.residual()));
+      EXPECT_EQ(expand(held, whole, held.system.right_hand_side()), left(whole.system.right_hand_side()));
       std::vector<double> x(held.system.places().size(), 0.0), product(x.size()), other(whole.system.places().size());
       for (std::size_t i = 0; i < x.size(); ++i) {
         x[i] = 1.0;
@@ -101,13 +101,13 @@ TEST(HeldNodes, are_struck_out_of_the_equations_and_nothing_else_is) {
 double unbalanced(const Rig& held, Rig& whole) {
   EXPECT_FALSE(whole.system.set_time(held.state.time));
   EXPECT_FALSE(whole.system.evaluate(held.state, {}, true));
-  std::vector<double> forces = whole.system.residual();
+  std::vector<double> forces = whole.system.right_hand_side();
   if (!held.state.unsettled.empty()) {  // f + K eta
     std::vector<double> eta(forces.size(), 0.0), more(forces.size());
     for (std::size_t n = 0; n < held.plan.nodes.size(); ++n)
       whole.system.places().set_node_part(eta.data(), static_cast<int>(n), held.state.unsettled[n]);
     whole.system.linear().solver().multiply(whole.system.walker(), eta.data(), more.data());
-    for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += more[i];
+    for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= more[i];
   }
   double most = 0.0;
   for (const plan::HeldNode& h : held.plan.held) {

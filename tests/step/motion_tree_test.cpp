@@ -102,15 +102,16 @@ TEST(MotionTree, tells_the_power_at_the_end_of_the_path) {
   for (std::size_t n = 0; n < at.num_nodes(); ++n) {
     const motion::Vec6<double> twist = (0.5 / h) * difference(f.plan, before, after, n);
     const auto begin = static_cast<std::size_t>(f.system.places().block_begin(static_cast<int>(n)));
-    for (std::size_t i = 0; i < 6; ++i) add(f.system.residual()[begin + i], twist[static_cast<int>(i)]);
+    for (std::size_t i = 0; i < 6; ++i) add(f.system.right_hand_side()[begin + i], twist[static_cast<int>(i)]);
   }
   for (const plan::JointPlan& j : f.plan.joints) {
     const auto begin = static_cast<std::size_t>(f.system.places().block_begin(j.block));
     const int size = f.plan.graph.block_size[static_cast<std::size_t>(j.block)];
     for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i)
-      add(f.system.residual()[begin + i], f.x[begin + i]);
+      add(f.system.right_hand_side()[begin + i], f.x[begin + i]);
   }
-  EXPECT_NEAR(f.system.corrections().power_along_tree(f.system.residual().data(), f.x.data()), expected, 1e-8 * scale);
+  EXPECT_NEAR(f.system.corrections().power_along_tree(f.system.right_hand_side().data(), f.x.data()), expected,
+              1e-8 * scale);
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ TEST(PlanarStep, is_seen_in_space_with_the_digits_that_it_iterated_with) {
         0.0;  // along the plane: off it the rounded places of the scene are loaded, which planar elements do not see
     for (std::size_t n = 0; n < rig.plan.nodes.size(); ++n) {
       const motion::Vec6<double> force =
-          space.system.places().node_part(space.system.residual().data(), static_cast<int>(n));
+          space.system.places().node_part(space.system.right_hand_side().data(), static_cast<int>(n));
       double x[3];
       rig.plan.unknowns.project(force, n, x);
       most = std::max({most, std::abs(x[0]), std::abs(x[1])});

@@ -60,9 +60,9 @@ class Corrections {
   /// It agrees with apply to first order, but relative motions take their increments exactly: a beam that bends far in
   /// one correction is not stretched, as it is where nodes move independently, along their tangents.
   void apply_along_tree(State& state, const double* x, double factor);
-  /// Power of a residual at the end of the path that apply_along_tree took last with `x`:  sum of residual .
+  /// Power of forces, by unknown, at the end of the path that apply_along_tree took last with `x`:  sum of force .
   /// d(increment)/d(factor).
-  double power_along_tree(const double* residual, const double* x);
+  double power_along_tree(const double* forces, const double* x);
   /// Adds `factor` times the multipliers and signals of a solution.
   void add_multipliers(State& state, const double* x, double factor) const;
 

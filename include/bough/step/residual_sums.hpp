@@ -46,8 +46,7 @@ class ResidualSums {
   void sum_visit(int visit, const tree::Walker& walker);
   /// Adds up the forces on held nodes, which have no unknowns. To be called after all visits.
   void sum_held();
-  /// The residual, by unknown, and minus the residual.
-  const std::vector<double>& values() const { return residual_; }
+  /// Minus the residual, by unknown.
   const std::vector<double>& right_hand_side() const { return right_hand_side_; }
   /// Without the worst nodes and joint, which name_worst finds, for messages.
   ResidualSize size() const;
@@ -94,7 +93,7 @@ class ResidualSums {
   std::vector<Chunk> chunks_;
   VisitRanges chunks_by_visit_;
   std::vector<std::int64_t> uses_;  ///< offsets in parts_ of the parts that add up, in a fixed order
-  std::vector<double> residual_, right_hand_side_;
+  std::vector<double> right_hand_side_;
   std::vector<ChunkSize> chunk_sizes_;        ///< by chunk
   double signal_share_ = 0.0;                 ///< the largest share of a signal's residual in its terms
   int worst_signal_ = -1, lost_signal_ = -1;  ///< the signal of that, and one whose residual is not finite

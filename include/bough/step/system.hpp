@@ -80,9 +80,7 @@ class System {
                                                            bool rescale, std::optional<Trouble>& of_factor);
   /// Adds up what elements have written. A sum that is not finite is reported with the owner of the element.
   [[nodiscard]] std::optional<Trouble> sum(const State& state);
-  /// Of the last evaluation, by unknown.
-  const std::vector<double>& residual() const { return sums_.values(); }
-  /// Minus that.
+  /// Minus the residual of the last evaluation, by unknown: -(R, Phi), for which a Newton correction is solved.
   const std::vector<double>& right_hand_side() const { return sums_.right_hand_side(); }
   ResidualSize residual_size() const { return sums_.size(); }
 
