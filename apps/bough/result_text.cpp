@@ -14,10 +14,10 @@ std::string count_text(long count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-/// Balances over time are those of dynamics; a static run has none.
-bool is_static(const records::Summary& summary) {
-  return std::any_of(summary.options.begin(), summary.options.end(), [](const auto& option) {
-    return option.first == "analysis/kind" && option.second == "\"static\"";
+/// Whether the run is an analysis of this kind.
+bool is_of(const records::Summary& summary, const std::string& kind) {
+  return std::any_of(summary.options.begin(), summary.options.end(), [&kind](const auto& option) {
+    return option.first == "analysis/kind" && option.second == "\"" + kind + "\"";
   });
 }
 
@@ -35,10 +35,11 @@ std::string balances_text(const records::Checks& checks) {
 std::string checks_text(const records::Summary& summary) {
   const records::Checks& checks = summary.checks;
   std::string text;
-  if (checks.evaluated) {
-    if (!is_static(summary)) text += balances_text(checks);
+  if (checks.evaluated) {  // balances over time are those of a motion that is integrated
+    if (is_of(summary, "dynamic")) text += balances_text(checks);
     text += "  constraints        " + rounded_text(checks.constraint_violation_position, 3) + " in position";
-    if (!is_static(summary)) text += ", " + rounded_text(checks.constraint_violation_velocity, 3) + " in velocity";
+    if (!is_of(summary, "static"))
+      text += ", " + rounded_text(checks.constraint_violation_velocity, 3) + " in velocity";
     text += "\n";
   }
   text += "  linear solutions   backward error up to " + rounded_text(checks.linear_backward_error_max, 2) + "\n";

@@ -2,6 +2,7 @@
 
 #include "bough/laws/formula.hpp"
 #include "bough/laws/make_law.hpp"
+#include "bough/scene/analysis_kinds.hpp"
 #include "bough/scene/components.hpp"
 #include "named_numbers.hpp"
 #include "read_scene_impl.hpp"
@@ -238,7 +239,7 @@ void Converter::settings() {
   }
   if (const Value* a = sound("analysis")) {
     scene::Analysis& r = scene.analysis;
-    r.kind = is_static_ ? scene::AnalysisKind::statics : scene::AnalysisKind::dynamics;
+    r.kind = scene::analysis_kind_named(text_or(*a, "kind")).value_or(scene::AnalysisKind::dynamics);
     r.frame = frame_name(*a);
     r.load_steps = static_cast<int>(number_or(*a, "load_steps", 1.0));
     if (const Value* unstable = a->find("unstable")) r.unstable = unstable->truth;
@@ -272,10 +273,10 @@ void Converter::settings() {
     r.spectral_radius = number_or(*a, "spectral_radius", 0.8);
     r.bdf_order = static_cast<int>(number_or(*a, "bdf_order", 0.0));
     r.newmark_beta = number_or(*a, "newmark_beta", 0.3);
-    r.newton = a->find("newton")->text == "single" ? scene::Newton::single : scene::Newton::full;
-    r.tolerance = a->find("tolerance")->number;
-    r.max_iterations = static_cast<int>(a->find("max_iterations")->number);
-    r.max_cuts = static_cast<int>(a->find("max_cuts")->number);
+    r.newton = text_or(*a, "newton") == "single" ? scene::Newton::single : scene::Newton::full;
+    r.tolerance = number_or(*a, "tolerance", 1e-8);
+    r.max_iterations = static_cast<int>(number_or(*a, "max_iterations", 20.0));
+    r.max_cuts = static_cast<int>(number_or(*a, "max_cuts", 10.0));
   } else {
     defective.push_back("/analysis");
   }

@@ -5,6 +5,7 @@
 
 #include "bough/plan/history_header.hpp"
 #include "bough/plan/plan.hpp"
+#include "bough/scene/analysis_kinds.hpp"
 #include "document_report.hpp"
 #include "study_converter.hpp"
 #include "study_rules.hpp"
@@ -74,7 +75,7 @@ void StudyConverter::read_base(const Value& root) {
   if (!faults.empty()) return;
   base_ = scene_->read(spec.overrides, origins_, "/scene", faults);
   if (!base_) return;
-  spec.is_dynamic = base_->analysis.kind == scene::AnalysisKind::dynamics;
+  spec.is_dynamic = scene::type_of(base_->analysis.kind).is_in_time;
   spec.end = spec.is_dynamic ? base_->analysis.end_time : 1.0;
   columns_ = plan::make_header(plan::make_plan(*base_)).columns;
   if (const double n = spec.sample_interval > 0.0 ? spec.end / spec.sample_interval : 1.0;

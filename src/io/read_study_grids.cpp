@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "bough/io/number_text.hpp"
+#include "bough/scene/analysis_kinds.hpp"
 #include "study_converter.hpp"
 #include "study_rules.hpp"
 
@@ -174,7 +175,7 @@ void StudyConverter::read_orders(const Value& list, const std::string& at, Study
 /// Sample times are ends of steps.
 bool StudyConverter::check_samples(const scene::Scene& scene, const std::string& at) {
   const double end = spec.is_dynamic ? scene.analysis.end_time : 1.0;
-  if ((scene.analysis.kind == scene::AnalysisKind::dynamics) != spec.is_dynamic || end != spec.end) {
+  if (scene::type_of(scene.analysis.kind).is_in_time != spec.is_dynamic || end != spec.end) {
     fault(at, "all runs of a study end at the same time");
     return false;
   }

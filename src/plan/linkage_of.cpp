@@ -82,7 +82,7 @@ SceneLinkage::SceneLinkage(const scene::Scene& scene, const scene::Poses& poses,
   for (const scene::Joint& j : scene.joints) add_joint(j);
   for (const scene::PrescribedMotion& m : scene.motions) add_motion(m);
   if (choice.stiffness_holds) add_stiffness();
-  if (choice.stiffness_holds || choice.mass_holds) add_point_masses();
+  if (choice.drives_hold) add_point_masses();
   for (const scene::Body& b : scene.bodies)
     if (choice.mass_holds && massive.count(b.name) == 0) add_masses(b);
 }

@@ -14,8 +14,9 @@ namespace bough::plan {
 
 /// Which parts of a scene count as rigid connections.
 struct LinkageChoice {
-  bool beams_are_rigid = true;   ///< false: beams are flexible and connect nothing
-  bool drives_hold = false;      ///< prescribed coordinates and motions that vary count as fixed
+  bool beams_are_rigid = true;  ///< false: beams are flexible and connect nothing
+  /// Prescribed coordinates and motions that vary count as fixed, and so do rotations of point masses without effect.
+  bool drives_hold = false;
   bool stiffness_holds = false;  ///< springs, bushings and springs in joints count as rigid
   bool mass_holds = false;       ///< every motion with inertia counts as held, so that motions without inertia remain
 };

@@ -4,6 +4,7 @@
 
 #include "bough/laws/make_law.hpp"
 #include "bough/plan/plan.hpp"
+#include "bough/scene/analysis_kinds.hpp"
 #include "bough/scene/components.hpp"
 #include "bough/scene/part_lengths.hpp"
 #include "bough/scene/poses.hpp"
@@ -20,7 +21,7 @@ using motion::Vec6;
 
 Builder::Builder(const scene::Scene& s) : scene(s), poses(s) {
   plan.scene_name = s.name;
-  plan.is_dynamic = s.analysis.kind == scene::AnalysisKind::dynamics;
+  plan.is_dynamic = scene::type_of(s.analysis.kind).is_in_time;
 }
 
 int Builder::add_law(const laws::Law& law, const std::string& user) {

@@ -44,6 +44,10 @@ class Analysis {
   virtual void add_notes() {}
   virtual void sum_up() {}
   virtual void add_doubts() {}
+  /// What of its errors nothing in the run has judged, in words; empty: nothing.
+  virtual std::string not_judged() const { return {}; }
+  /// Whether one more Newton correction of the last state tells its error.
+  virtual bool ends_in_correction() const { return true; }
 
  protected:
   explicit Analysis(const Parts& parts);
@@ -51,6 +55,7 @@ class Analysis {
 
   Account& account() { return recording_.account(); }
   records::Summary& summary() { return recording_.summary(); }
+  const records::Summary& summary() const { return recording_.summary(); }
   bool fail(const std::string& cause) { return account().fail(cause); }
   void note(const std::string& text) { account().note(text); }
   /// Counts an attempt at the present state.

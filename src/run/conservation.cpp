@@ -48,6 +48,7 @@ void Conservation::check(const step::State& state, double step_size, records::Ch
     c.relative_violation_step = gaps.relative_velocity * step_size;
     fast_joint_ = gaps.fast_joint;
   }
+  if (!has_balance_) return;
   const results::Energies energies = energy_meter_.eval(system_, state);
   gate.look_at(energies, state.time, [&] { return results::eval_motion(system_, state); });
   gate.look_at("the work of loads and drives", work_meter_.supply().work, state.time);

@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "bough/scene/analysis_kinds.hpp"
 #include "bough/scene/components.hpp"
 
 namespace bough::run {
@@ -28,14 +29,16 @@ std::string quoted(const std::string& text) {
 
 records::EffectiveOptions effective_options(const scene::Scene& scene, const step::StepOptions& o) {
   records::EffectiveOptions list;
-  const bool dynamic = scene.analysis.kind == scene::AnalysisKind::dynamics;
-  list.emplace_back("analysis/kind", quoted(dynamic ? "dynamic" : "static"));
+  const scene::AnalysisType& kind = scene::type_of(scene.analysis.kind);
+  list.emplace_back("analysis/kind", quoted(std::string(kind.name)));
   if (!scene.analysis.frame.empty()) list.emplace_back("analysis/frame", quoted(scene.analysis.frame));
-  if (dynamic) {
+  if (kind.is_in_time) {
     if (scene.analysis.start == scene::StartKind::equilibrium)
       list.emplace_back("analysis/start", quoted("equilibrium"));
     list.emplace_back("analysis/end_time", number(scene.analysis.end_time));
     list.emplace_back("analysis/step_size", number(scene.analysis.step_size));
+  }
+  if (kind.integrates) {
     if (o.integrator == scene::Integrator::variational) {
       list.emplace_back("analysis/integrator", quoted("variational"));
       list.emplace_back("analysis/newmark_beta", number(o.newmark_beta));
@@ -71,12 +74,14 @@ records::EffectiveOptions effective_options(const scene::Scene& scene, const ste
       list.emplace_back("analysis/arc_length/end_load_factor", number(l.end_load_factor));
       list.emplace_back("analysis/arc_length/after_limit_points", std::to_string(l.after_limit_points));
     }
-  } else {
+  } else if (!kind.is_in_time) {
     list.emplace_back("analysis/load_steps", std::to_string(scene.analysis.load_steps));
   }
-  list.emplace_back("analysis/newton", quoted(o.single_solution ? "single" : "full"));
-  list.emplace_back("analysis/tolerance", number(o.tolerance));
-  list.emplace_back("analysis/max_iterations", std::to_string(o.max_iterations));
+  if (kind.integrates || !kind.is_in_time) {
+    list.emplace_back("analysis/newton", quoted(o.single_solution ? "single" : "full"));
+    list.emplace_back("analysis/tolerance", number(o.tolerance));
+    list.emplace_back("analysis/max_iterations", std::to_string(o.max_iterations));
+  }
   list.emplace_back("analysis/max_cuts", std::to_string(o.max_cuts));
   const scene::SolverForm form = scene.solver.form;
   list.emplace_back("solver/form", quoted(scene::to_string(form)));

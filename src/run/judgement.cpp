@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "not_judged.hpp"
 #include "solver_figures.hpp"
 #include "trust.hpp"
 
@@ -64,7 +63,7 @@ void judge(const EndedRun& run) {
   summary.checks.unbalanced_at_floor = account.unbalanced_at_floor();
   recording.conservation().sum_up(summary.checks, run.options, run.scene.analysis.end_time);
   if (const ErrorWatch* watch = recording.error_watch()) summary.sensor_errors = watch->errors(summary.header);
-  summary.not_judged = error_not_judged(plan, run.options, run.scene.output.checks, summary.sensor_errors);
+  summary.not_judged = run.analysis.not_judged();
   account.note_dependent_rows();
   run.analysis.add_notes();
   account.note_steps();
@@ -76,10 +75,9 @@ void judge(const EndedRun& run) {
     if (!cause.empty() && !account.fail(cause)) recording.take_figures();  // no expected figure of a failed run holds
   }
   summary.solver = solver_figures(run.system, account.dependent_rows());
-  const bool is_alpha = run.options.integrator == scene::Integrator::generalized_alpha;
   if (summary.status == RunStatus::ok) {
     look_at_last_factor(run.system, summary);
-    if (!plan.is_dynamic || is_alpha) estimate_solution_error(run.system, run.state, summary);
+    if (run.analysis.ends_in_correction()) estimate_solution_error(run.system, run.state, summary);
   }
   run.analysis.sum_up();
   summary.doubts = doubts_of(summary, plan.is_dynamic);

@@ -32,7 +32,6 @@ std::string names_of(const std::vector<std::string>& sensors) {
 
 std::string error_not_judged(const plan::Plan& plan, const step::StepOptions& options, bool checks,
                              const std::vector<records::SensorError>& errors) {
-  if (!plan.is_dynamic) return "";
   const std::string why = why_none(options, checks);
   if (!why.empty()) return "the error in time is not estimated, " + why + remedy;
   std::vector<std::string> others;

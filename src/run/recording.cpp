@@ -5,6 +5,7 @@
 
 #include "bough/plan/history_header.hpp"
 #include "bough/results/observe.hpp"
+#include "bough/scene/analysis_kinds.hpp"
 #include "effective_options.hpp"
 
 namespace bough::run {
@@ -44,6 +45,7 @@ records::ExpectedResult held_against(const scene::Expected& given, const records
 /// Whether work and energies are followed in every step: if checks are made, and for the variational integrator, whose
 /// runs are judged by their energy while they proceed.
 bool follows_energy(const scene::Scene& scene, const plan::Plan& plan) {
+  if (plan.is_dynamic && !scene::type_of(scene.analysis.kind).integrates) return false;
   return scene.output.checks || (plan.is_dynamic && scene.analysis.integrator == scene::Integrator::variational);
 }
 
@@ -70,8 +72,9 @@ Recording::Recording(const scene::Scene& scene, const SimulateOptions& options, 
   s.header = plan::make_header(plan);
   s.notes = plan.notes;
   s.checks.evaluated = scene.output.checks;
+  const bool integrates = scene::type_of(scene.analysis.kind).integrates;
   s.follows_path = !plan.is_dynamic && step_options.arc_length.has_value();
-  const bool tells_errors = plan.is_dynamic && step_options.integrator == scene::Integrator::generalized_alpha;
+  const bool tells_errors = integrates && step_options.integrator == scene::Integrator::generalized_alpha;
   if (tells_errors && scene.output.checks) error_watch_.emplace(plan);
 }
 

@@ -9,6 +9,7 @@
 #include "bough/step/growing_vibration.hpp"
 #include "effective_options.hpp"
 #include "given_velocities.hpp"
+#include "not_judged.hpp"
 #include "stability_watch.hpp"
 #include "trust.hpp"
 
@@ -214,6 +215,10 @@ void TimeSteps::sum_up() {
 void TimeSteps::add_doubts() {
   if (!reactions_) return;
   if (const std::string wrong = reactions_->misplaced(); !wrong.empty()) summary().doubts.push_back({"error", wrong});
+}
+
+std::string TimeSteps::not_judged() const {
+  return error_not_judged(plan_, options_, scene_.output.checks, summary().sensor_errors);
 }
 
 }  // namespace bough::run

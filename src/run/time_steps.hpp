@@ -24,6 +24,8 @@ class TimeSteps : public Analysis {
   bool is_done() const override { return is_begun_ && is_stretch_done() && !(end_ < scene_.analysis.end_time); }
   void sum_up() override;
   void add_doubts() override;
+  std::string not_judged() const override;
+  bool ends_in_correction() const override { return options_.integrator == scene::Integrator::generalized_alpha; }
 
  protected:
   explicit TimeSteps(const Parts& parts);

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "bough/motion/se3.hpp"
+#include "bough/scene/analysis_kinds.hpp"
 #include "bough/scene/break_limits.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "problem_list.hpp"
@@ -86,7 +87,7 @@ ProblemList::ProblemList(const Scene& scene_in, std::span<const std::string> def
   for (const Body& b : scene.bodies) places.push_back(b.name);
   places.push_back("ground");
   size = model_size(scene, poses);
-  is_dynamic = scene.analysis.kind == AnalysisKind::dynamics;
+  is_dynamic = type_of(scene.analysis.kind).is_in_time;
   last_time = is_dynamic ? scene.analysis.end_time : 1.0;
   if (defective.count("/analysis") > 0) {
     is_dynamic = false;

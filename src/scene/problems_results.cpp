@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "bough/scene/analysis_kinds.hpp"
 #include "bough/scene/moving_frame.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "problem_list.hpp"
@@ -301,7 +302,7 @@ void check_analysis(ProblemList& list) {
                           return section != list.section_of.end() && !is_zero(s.sections[section->second].mass);
                         });
   if (!has_mass && list.defective.empty() && !(s.nodes.empty() && s.bodies.empty()))
-    list.add("analysis", 0, "kind", "dynamic",
+    list.add("analysis", 0, "kind", std::string(type_of(a.kind).name),
              "nothing in the scene has mass, neither '" + (s.bodies.empty() ? s.nodes[0].name : s.bodies[0].name) +
                  "' nor anything else",
              "give the material a density, the section a mass or the bodies a mass");

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "bough/motion/vectors_on.hpp"
-#include "bough/step/advance.hpp"
+#include "bough/step/consistent.hpp"
 #include "bough/step/residual_rate.hpp"
 #include "element_parts.hpp"
 #include "first_order.hpp"
@@ -158,8 +158,12 @@ std::optional<Trouble> solve_accelerations(System& system, State& state) {
 }
 
 StartReport make_consistent(System& system, State& state, bool fix_positions, double step_size) {
+  return make_consistent_on(system, state, fix_positions, step_size, laws::Side::right);
+}
+
+StartReport make_consistent_on(System& system, State& state, bool fix_positions, double step_size, laws::Side side) {
   StartReport report;
-  if (const auto t = system.set_time(state.time, laws::Side::right)) return failed(t->text);
+  if (const auto t = system.set_time(state.time, side)) return failed(t->text);
   set_unmoved(state, true);
   system.signals().follow_motion(state);
   std::vector<double> rhs(system.places().size(), 0.0), x(system.places().size());

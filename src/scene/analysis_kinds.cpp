@@ -1,0 +1,21 @@
+#include "bough/scene/analysis_kinds.hpp"
+
+namespace bough::scene {
+
+const std::vector<AnalysisType>& analysis_types() {
+  static const std::vector<AnalysisType> types = {
+      {AnalysisKind::statics, "static", false, false},
+      {AnalysisKind::dynamics, "dynamic", true, true},
+  };
+  return types;
+}
+
+const AnalysisType& type_of(AnalysisKind kind) { return analysis_types().at(static_cast<std::size_t>(kind)); }
+
+std::optional<AnalysisKind> analysis_kind_named(std::string_view name) {
+  for (const AnalysisType& type : analysis_types())
+    if (type.name == name) return type.kind;
+  return std::nullopt;
+}
+
+}  // namespace bough::scene
