@@ -8,7 +8,7 @@
 #include "bough/io/read_scene.hpp"
 #include "bough/io/read_study.hpp"
 #include "bough/io/read_sweep.hpp"
-#include "bough/plan/plan.hpp"
+#include "bough/plan/undriven.hpp"
 #include "memory_limit.hpp"
 #include "terminal.hpp"
 
@@ -30,12 +30,17 @@ bool is_small(const scene::Scene& s) {
   return parts <= most;
 }
 
-/// What the plan finds locked, loose or without inertia: hints, which change no verdict.
-void print_mobility(const std::filesystem::path& file, const scene::Scene& s) {
-  if (!is_small(s)) return;
-  const plan::Mobility mobility = plan::make_plan(s).mobility;
+/// What the plan finds locked, loose or without inertia: hints, which change no verdict, but for motions that the
+/// analysis cannot leave free. Returns the number of these.
+std::size_t print_mobility(const std::filesystem::path& file, const scene::Scene& s) {
+  if (!is_small(s)) return 0;
+  const plan::Plan plan = plan::make_plan(s);
+  const plan::Mobility& mobility = plan.mobility;
   for (const auto* list : {&mobility.locked, &mobility.free, &mobility.massless})
     for (const std::string& text : *list) std::cerr << file.string() << ": warning: " << text << "\n";
+  const std::vector<std::string> refused = plan::undriven_motions(s, plan);
+  for (const std::string& text : refused) std::cerr << file.string() << ": " << text << "\n";
+  return refused.size();
 }
 
 }  // namespace
@@ -43,13 +48,14 @@ void print_mobility(const std::filesystem::path& file, const scene::Scene& s) {
 int check(const CheckArguments& arguments) {
   const io::SceneFile file = io::read_scene(arguments.scene, arguments.overrides);
   print_problems(arguments.scene, file, false);
-  if (!file.ok()) {
-    std::cerr << file.problems.size() << (file.problems.size() == 1 ? " problem\n" : " problems\n");
+  const auto refuse = [](std::size_t problems) {
+    std::cerr << problems << (problems == 1 ? " problem\n" : " problems\n");
     return exit_bad_input;
-  }
+  };
+  if (!file.ok()) return refuse(file.problems.size());
   if (refuse_for_memory(arguments.scene, file.scene, arguments.memory_limit)) return exit_bad_input;
   const scene::Scene& s = file.scene;
-  print_mobility(arguments.scene, s);
+  if (const std::size_t refused = print_mobility(arguments.scene, s); refused > 0) return refuse(refused);
   std::string parts;
   count(parts, s.nodes.size(), "node", "nodes");
   count(parts, s.bodies.size(), "body", "bodies");

@@ -73,6 +73,14 @@ void add_analysis_rules(RuleTable& t, const Field& frame) {
            may("largest_step", positive(""), "[s]. Default: a fiftieth of the end time.")})),
       "Step sizes chosen so that errors follow a tolerance; step_size is then that of the first step. Default: steps "
       "of equal size."));
+  const std::vector<Field> inverse_dynamics = {
+      need("end_time", positive(""), "[s]."),
+      may("step_size", positive(""),
+          "Distance h of the times 0, h, 2 h, ... at which the motion is evaluated, besides those of expected figures; "
+          "no result depends on it [s].",
+          "1e-3"),
+      may("max_cuts", integer_rule("", 0, 60), "Halvings of the way between two times where parts move far.", "10"),
+      frame};
   statics.push_back(frame);
   dynamics.push_back(frame);
   statics.insert(statics.end(), newton.begin(), newton.end());
@@ -80,7 +88,12 @@ void add_analysis_rules(RuleTable& t, const Field& frame) {
   t.named["analysis"] = choice_rule(
       "What is computed.",
       {made(object_of_kind({"static"}, "Equilibrium at load factors up to 1, or under prescribed motions.", statics)),
-       made(object_of_kind({"dynamic"}, "Motion in time.", dynamics))});
+       made(object_of_kind({"dynamic"}, "Motion in time.", dynamics)),
+       made(object_of_kind({"inverse_dynamics"},
+                           "Efforts of drives and reactions for a motion that drives and prescribed motions determine "
+                           "completely, evaluated at given times: nothing is integrated. Refused where a part can "
+                           "still move, bend or follow a state.",
+                           inverse_dynamics))});
 }
 
 }  // namespace bough::io

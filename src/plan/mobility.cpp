@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <map>
 
+#include "bough/plan/undriven.hpp"
+#include "bough/scene/analysis_kinds.hpp"
 #include "linkage_of.hpp"
 #include "plan_builder.hpp"
 
@@ -201,6 +203,28 @@ std::vector<std::string> find_locked(const SceneLinkage& s) {
 }
 
 }  // namespace
+
+std::vector<std::string> undriven_motions(const scene::Scene& scene, const Plan& plan) {
+  if (!plan.is_dynamic || scene::type_of(scene.analysis.kind).integrates) return {};
+  std::vector<std::string> texts;
+  const auto add = [&texts](const std::string& text) {
+    if (texts.size() < told) texts.push_back(text);
+  };
+  const std::string asked = "inverse dynamics takes a motion that drives prescribe completely, but ";
+  const scene::Poses poses(scene);
+  const SceneLinkage driven(scene, poses, {.drives_hold = true});  // in space: what the plan leaves out could move
+  for (const LinkComponent& c : driven.linkage.solve()) {
+    if (!c.reaches_ground) add(asked + "nothing joins " + listed(names_in(driven, c)) + " to the ground");
+    for (Eigen::Index k = 0; c.reaches_ground && k < c.motions.cols(); ++k)
+      add(asked + describe(driven, c, k, " can still ") + "; drive that");
+  }
+  for (const scene::Beam& b : scene.beams)
+    add(asked + "beam '" + b.name + "' bends as its loads ask for; take rigid bodies for it");
+  for (const scene::Signal& signal : scene.signals)
+    if (signal.kind == scene::SignalKind::state)
+      add(asked + "the state '" + signal.name + "' follows from its past; give it as a law of time");
+  return texts;
+}
 
 int Mobility::degrees_of_freedom() const {
   int sum = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "bough/scene/analysis_kinds.hpp"
 #include "load_path.hpp"
 #include "load_steps.hpp"
 #include "time_steps.hpp"
@@ -55,11 +56,15 @@ std::vector<double> Analysis::stops_between(double begin, double end) const {
   return stops;
 }
 
+std::unique_ptr<Analysis> make_inverse_dynamics(const Parts& parts);  // inverse_dynamics.cpp
+
 std::unique_ptr<Analysis> make_analysis(const Parts& parts) {
-  if (parts.scene.analysis.kind == scene::AnalysisKind::statics) {
+  const scene::AnalysisKind kind = parts.scene.analysis.kind;
+  if (kind == scene::AnalysisKind::statics) {
     if (parts.options.arc_length) return std::make_unique<LoadPath>(parts);
     return std::make_unique<LoadSteps>(parts);
   }
+  if (kind == scene::inverse_dynamics) return make_inverse_dynamics(parts);
   if (parts.options.step_control) return std::make_unique<ControlledSteps>(parts);
   return std::make_unique<EqualSteps>(parts);
 }

@@ -63,6 +63,9 @@ expect 2 'mass' run bad.json --out bad.out --quiet
 holds test ! -e bad.out
 expect 2 'problem' check bad.json
 expect 2 . run good.json --set /analysis/step_size=-1 --out bad.out
+expect 0 'ok: ' check "$gallery/arm_inverse.json"
+expect 2 "'fore' can still turn about the axis" check "$gallery/arm_inverse.json" --set /joints/1/drives=[]
+expect 1 "at joint 'elbow'" run "$gallery/arm_inverse.json" --set /joints/1/drives=[] --out undriven.out
 expect 2 . run good.json --set nonsense --out bad.out
 holds test ! -e bad.out
 
