@@ -78,6 +78,8 @@ class Converter : private ValueConverter {
   void find_signal_names();
   void signal_formula(const Value& v, const std::string& at, scene::Signal& s);
   void signal_surface(const Value& v, const std::string& at, scene::Signal& s);
+  std::string unused_signal_name(std::string name);
+  void take_in_units(const Value& v, const std::string& at, double nominal, scene::Signal& s);
   void signal(const Value& v, const std::string& at);
   laws::Law law_or_signal(const Value& v, const std::string& at, std::string& signal);
 
@@ -123,7 +125,8 @@ class Converter : private ValueConverter {
   std::unordered_set<std::string> defective_materials_;       ///< omitted; their faults were reported
   std::unordered_set<std::string> names_;                     ///< all names given in the file
   std::unordered_set<std::string> measure_names_;
-  std::vector<std::string> signal_names_;  ///< of all signals of the document
+  std::vector<std::string> signal_names_;      ///< of all signals of the document
+  std::vector<std::string> own_signal_names_;  ///< of those that the reader makes
   int unnamed_ = 0;
   std::optional<scene::Poses> poses_;
 };

@@ -1,6 +1,7 @@
 /// Reads signals: numbers that change with the motion.
 #include <algorithm>
 
+#include "bough/io/number_text.hpp"
 #include "bough/laws/formula.hpp"
 #include "bough/laws/law_error.hpp"
 #include "bough/scene/signals.hpp"
@@ -69,6 +70,32 @@ void Converter::signal_surface(const Value& v, const std::string& at, scene::Sig
   }
 }
 
+/// A word that no signal of the document has.
+std::string Converter::unused_signal_name(std::string name) {
+  const auto is_in = [&name](const std::vector<std::string>& list) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  while (is_in(signal_names_) || is_in(own_signal_names_)) name += "_";
+  own_signal_names_.push_back(name);
+  return name;
+}
+
+/// Makes a state x a multiple of a state in units of its nominal size, y' = f/nominal, whose errors count as they are.
+void Converter::take_in_units(const Value& v, const std::string& at, double nominal, scene::Signal& s) {
+  std::string unit = "(";
+  append_number(unit, nominal);
+  unit += ")";
+  scene::Signal in_units = s;
+  in_units.name = unused_signal_name(s.name + "_of_nominal");
+  in_units.formula = laws::Formula("(" + v.find("expression")->text.str() + ")/" + unit, s.inputs);
+  in_units.start = s.start / nominal;
+  s.kind = SignalKind::formula;
+  s.inputs = {in_units.name};
+  s.formula = laws::Formula(unit + "*" + in_units.name, s.inputs);
+  s.start = 0.0;
+  add(scene.signals, "signals", std::move(in_units), at);
+}
+
 void Converter::signal(const Value& v, const std::string& at) {
   scene::Signal s;
   s.name = v.find("name")->text;
@@ -91,6 +118,8 @@ void Converter::signal(const Value& v, const std::string& at) {
   if (const Value* given = v.find("law")) s.law = law(*given, at + "/law");
   if (s.kind == SignalKind::formula || s.kind == SignalKind::state) signal_formula(v, at, s);
   if (!s.of.empty()) s.inputs.assign(1, s.of);
+  if (const double nominal = number_or(v, "nominal", 1.0); nominal != 1.0 && faults.size() == faults_before_)
+    take_in_units(v, at, nominal, s);
   add(scene.signals, "signals", std::move(s), at);
 }
 

@@ -52,7 +52,12 @@ void add_signal_rules(RuleTable& t) {
            "x' = formula of signals, x included: integrators, lags, bristles. Integrated with the motion, to the same "
            "order. In statics, and in the equilibrium at a start, x' = 0.",
            {name, need("expression", formula, "The rate of x, for instance \"(command - x)/lag\"."),
-            may("start", number_rule(""), "x at the start of dynamics.", "0")})),
+            may("start", number_rule(""), "x at the start of dynamics.", "0"),
+            may("nominal", positive(""),
+                "Usual size of x, in its unit, in which it is integrated: step_control compares errors of x with it, "
+                "or "
+                "with the largest x so far where that is more.",
+                "1")})),
        made(object_of_kind({"input"},
                            "A number that a program sets between steps (Simulation::set_input); where none does, as in "
                            "`bough run`, it keeps its start.",

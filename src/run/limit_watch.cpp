@@ -7,7 +7,10 @@
 namespace bough::run {
 
 LimitWatch::LimitWatch(const plan::Plan& plan)
-    : owner_(plan.nodes.size(), -1), of_beam_(plan.beams.size()), of_node_(plan.nodes.size()) {
+    : owner_(plan.nodes.size(), -1),
+      of_beam_(plan.beams.size()),
+      of_node_(plan.nodes.size()),
+      of_signal_(plan.signals.size(), 0) {
   for (std::size_t b = 0; b < plan.beams.size(); ++b)
     for (std::size_t k = 1; k + 1 < plan.beams[b].nodes.size(); ++k)  // ends may be bodies, or belong to other beams
       owner_[static_cast<std::size_t>(plan.beams[b].nodes[k])] = static_cast<int>(b);
@@ -16,6 +19,10 @@ LimitWatch::LimitWatch(const plan::Plan& plan)
 void LimitWatch::count(const step::ErrorLimit& limit) {
   if (limit.is_energy) {
     ++of_energy_;
+    ++all_;
+  }
+  if (limit.signal >= 0) {
+    ++of_signal_[static_cast<std::size_t>(limit.signal)];
     ++all_;
   }
   if (limit.node < 0) return;
@@ -36,7 +43,13 @@ std::optional<std::string> LimitWatch::text(const plan::Plan& plan, double toler
   const auto share = [&](long steps) {
     return std::to_string((100 * steps + (all_ + at_largest_) / 2) / (all_ + at_largest_)) + " % of the steps";
   };
-  if (most == 0 && of_energy_ == 0 && at_largest_ == 0) return std::nullopt;
+  const auto signal = std::max_element(of_signal_.begin(), of_signal_.end());
+  const long of_signal = signal == of_signal_.end() ? 0 : *signal;
+  if (most == 0 && of_energy_ == 0 && at_largest_ == 0 && of_signal == 0) return std::nullopt;
+  if (of_signal > std::max({most, of_energy_, at_largest_}))
+    return "the tolerance of " + io::rounded_text(tolerance, 2) + " for the error of the state '" +
+           plan.signals[static_cast<std::size_t>(signal - of_signal_.begin())].name + "' decided the size of " +
+           share(of_signal);
   if (of_energy_ > std::max(most, at_largest_))
     return "the tolerance of " + io::rounded_text(tolerance, 2) + " for the error of energies decided the size of " +
            share(of_energy_);

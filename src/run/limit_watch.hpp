@@ -25,6 +25,7 @@ class LimitWatch {
   };
   std::vector<int> owner_;  ///< by node: the beam whose inner node it is, or -1
   std::vector<Limit> of_beam_, of_node_;
+  std::vector<long> of_signal_;
   long at_largest_ = 0, of_energy_ = 0, all_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include "bough/motion/vectors_on.hpp"
 #include "bough/scene/sensor_kinds.hpp"
 #include "bough/step/step_control.hpp"
+#include "first_order.hpp"
 
 namespace bough::step {
 
@@ -39,7 +40,9 @@ ErrorConstants make_error_constants(const AlphaCoefficients& c) {
 }
 
 LocalError::LocalError(const System& system, const StepOptions& options, double duration)
-    : plan_(system.plan()), alpha_(make_alpha_coefficients(options.spectral_radius)) {
+    : plan_(system.plan()),
+      spectral_radius_(options.spectral_radius),
+      alpha_(make_alpha_coefficients(options.spectral_radius)) {
   constants_ = make_error_constants(alpha_);
   const double length = system.plan().length_scale;
   least_ = {length, 1.0, length / duration, 1.0 / duration};
@@ -53,6 +56,8 @@ LocalError::LocalError(const System& system, const StepOptions& options, double 
   shifted_ = make_initial_state(system.plan());
   watched_.assign(now_.size(), {true, true, true, 0.0});
   if (options.step_control) watch(system.plan());
+  for (std::size_t i = 0; i < plan_.signals.size(); ++i)
+    if (plan_.signals[i].is_state()) states_.push_back({i});
 }
 
 void LocalError::watch(const plan::Plan& plan) {
@@ -143,6 +148,26 @@ void LocalError::shift_accelerations(const State& after, State& to) const {
   });
 }
 
+/// Enters s h (e_x / h^3) by the equations of states. x''' is the change of x'' since the step before or, in the first
+/// one, since the start, which is half a step away.
+void LocalError::enter_states(System& system, const State& after, std::vector<double>& rhs) {
+  if (states_.empty()) return;
+  const State& start = system.work().start;
+  const double h = after.step_size;
+  const FirstOrderRule rule(spectral_radius_, h);
+  const double constant = 1.0 / 12.0 + rule.shift() * (rule.alpha_f - 0.5);
+  const bool is_after_start = start.local_error == 0.0 && start.increment == 0.0;
+  for (WatchedState& s : states_) {
+    s.trend = (after.signals.rate[s.signal] - start.signals.rate[s.signal]) / h;
+    double third = 0.0;
+    if (has_previous_)
+      third = (s.trend - s.trend_before) / (0.5 * (h + previous_step_));
+    else
+      third = (s.trend - start.signals.trend[s.signal] / start.step_size) / (is_after_start ? 0.5 * h : h);
+    rhs[system.places().signals()[s.signal]] = rule.slope() * h * constant * third;
+  }
+}
+
 std::optional<Trouble> LocalError::measure(System& system, const State& after) {
   const double h = after.step_size, h3 = h * h * h;
   std::vector<double>&rhs = system.work().rhs, &x = system.work().x;
@@ -154,7 +179,9 @@ std::optional<Trouble> LocalError::measure(System& system, const State& after) {
   shift_accelerations(after, shifted_);
   if (auto t = system.evaluate(shifted_, {}, false)) return t;
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = c2 * (rhs[i] - system.right_hand_side()[i]);
+  enter_states(system, after, rhs);
   if (auto t = system.linear().solve(rhs.data(), x.data())) return t;
+  for (WatchedState& s : states_) s.error = x[system.places().signals()[s.signal]] / h;
   Largest change;
   ErrorParts most;
   for (std::size_t n = 0; n < now_.size(); ++n) {
@@ -201,10 +228,16 @@ ErrorLimit LocalError::limit(double tolerance) const {
     const bool turns = error.angular() * size.position > error.linear() * size.rotation;
     const double of_error = turns ? error.angular() : error.linear(),
                  of_changed = turns ? change.angular() : change.linear();
-    found = {static_cast<int>(n), velocity > place, false,
+    found = {static_cast<int>(n), -1, velocity > place, false,
              of_error > 0.0 ? of_changed / (of_error * 0.5 * (step_ + previous_step_)) : 0.0};
   }
-  if (energy_ / std::pow(tolerance, 1.5) > most) found = {-1, false, true, 0.0};
+  for (const WatchedState& s : states_) {
+    const double error = of_place * std::abs(s.error) / s.size;
+    if (error <= most) continue;
+    most = error;
+    found = {-1, static_cast<int>(s.signal), false, false, 0.0};
+  }
+  if (energy_ / std::pow(tolerance, 1.5) > most) found = {-1, -1, false, true, 0.0};
   return found;
 }
 
@@ -233,6 +266,10 @@ void LocalError::accept(const State& after) {
   has_previous_ = true;
   Largest velocity;
   for (const elements::NodeMotion& n : nodes_in_space(plan_, after)) velocity.include(n.v);
+  for (WatchedState& s : states_) {
+    s.trend_before = s.trend;
+    s.size = std::max(s.size, std::abs(after.signals.value[s.signal]));
+  }
   speed_ = std::max(speed_, velocity.linear());
   spin_ = std::max(spin_, velocity.angular());
 }
@@ -266,6 +303,11 @@ std::string LocalError::describe(const plan::Plan& plan, double tolerance) const
                   energy_, energy_ / std::pow(tolerance, 1.5));
     return text;
   }
+  if (most.signal >= 0) {
+    std::snprintf(text, sizeof text, "' is %.2g of its size, %.3g times what the tolerance of step control allows",
+                  relative_state(), relative_state() / of_motion);
+    return "the local error of the state '" + plan.signals[static_cast<std::size_t>(most.signal)].name + text;
+  }
   const auto node = static_cast<std::size_t>(std::max(0, most.node));
   std::snprintf(text, sizeof text, " is %.2g %s, %.3g times what the tolerance of step control allows", worst.error,
                 worst.unit, worst.error / worst.allowed);
@@ -275,6 +317,12 @@ std::string LocalError::describe(const plan::Plan& plan, double tolerance) const
 double LocalError::relative_motion() const {
   const ErrorParts size = sizes();
   return std::max(parts_.position / size.position, parts_.rotation / size.rotation);
+}
+
+double LocalError::relative_state() const {
+  double most = 0.0;
+  for (const WatchedState& s : states_) most = std::max(most, std::abs(s.error) / s.size);
+  return step_ * step_ * step_ * most;
 }
 
 double LocalError::relative_velocity() const {

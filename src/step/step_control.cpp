@@ -15,6 +15,7 @@ constexpr double tiny = 1e-10;       ///< lower bound on E; the change of h is l
 
 double StepController::ratio(const LocalError& error) const {
   return std::max({error.relative_motion() / std::pow(tolerance_, 1.5), error.relative_velocity() / tolerance_,
+                   error.relative_state() / std::pow(tolerance_, 1.5),
                    error.relative_energy() / std::pow(tolerance_, 1.5)});
 }
 

@@ -173,6 +173,10 @@ const Bad frame_cases[] = {
      "/motions/0/z/terms/1", "a signal of kind \"formula\""},
     {"\"stiffness\": 10 }", "\"stiffness\": @{ \"signal\": \"a\" } }", "/springs/0/stiffness",
      "this number is constant"},
+    {"\"title\": \"base\",",
+     "\"title\": \"base\", \"signals\": [ { \"name\": \"a\", \"kind\": \"state\", \"expression\": \"1\", "
+     "\"nominal\": @0 } ],",
+     "/signals/0/nominal", "above 0"},
     {"\"kind\": \"dynamic\", \"end_time\": 1, \"step_size\": 1e-3, \"spectral_radius\": 0.9",
      "\"kind\": \"inverse_dynamics\", \"end_time\": 1, @\"start\": \"given\"", "/analysis/start",
      "this key is not known here"},

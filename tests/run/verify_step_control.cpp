@@ -338,5 +338,69 @@ TEST(StepControl, cuts_a_first_step_that_is_far_too_long) {
   })) << "a step rejected for its error says for which";
 }
 
+/// A slider at rest, and an oscillation of two states of the size a with 30 rad/s:  u = a cos(30 t), w = a sin(30 t).
+std::string quiet(double size, const std::string& nominal) {
+  const std::string a = support::text(size);
+  return R"-({"analysis": {"kind": "dynamic", "end_time": 2, "step_size": 1e-3, "step_control": {"tolerance": 1e-4}},
+  "bodies": [{"name": "slider", "mass": 2, "inertia": [1, 1, 1]}],
+  "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "slider", "axis": [1, 0, 0],
+              "forces": [{"stiffness": 10, "damping": 1}]}],
+  "signals": [{"name": "u", "kind": "state", "expression": "-30*w", "start": )-" +
+         a + nominal + R"-(}, {"name": "w", "kind": "state", "expression": "30*u", "start": 0)-" + nominal + R"-(}],
+  "sensors": [{"name": "x", "kind": "joint_displacement", "joint": "rail"},
+              {"name": "u", "kind": "signal", "signal": "u"}]})-";
+}
+
+Outcome quiet_run(double size, const std::string& nominal, double tolerance) {
+  return support::run_ok(
+      support::scene_of(quiet(size, nominal),
+                        {"/analysis/step_control/tolerance=" + support::text(tolerance), "/analysis/tolerance=1e-11"}));
+}
+
+// The mechanism alone would let steps grow to a fiftieth of the run, 40 ms. A step of local error tol^(3/2) has
+// h ~ tol^(1/2), so the error of the states follows the tolerance.
+TEST(StepControl, a_fast_state_beside_a_quiet_mechanism_decides_the_steps) {
+  const double exact = std::cos(60.0);
+  std::vector<double> errors;
+  for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+    const Outcome r = quiet_run(1.0, "", tolerance);
+    errors.push_back(std::abs(r.history.last("u") - exact));
+    EXPECT_LT(errors.back(), 60.0 * tolerance);  // 60 rad of a motion whose error per rad is below the tolerance
+    EXPECT_LT(r.summary.step_size, 0.5 * std::sqrt(tolerance));
+    EXPECT_TRUE(std::any_of(r.summary.notes.begin(), r.summary.notes.end(), [](const std::string& note) {
+      return note.find("for the error of the state '") != std::string::npos;
+    }));
+  }
+  EXPECT_NEAR(std::log10(errors[0] / errors[1]), 1.0, 0.2);
+  EXPECT_NEAR(std::log10(errors[1] / errors[2]), 1.0, 0.2);
+}
+
+// A state of the size 1e-6 is watched as one of the size 1 if that is its nominal size, and not at all if that is 1.
+TEST(StepControl, errors_of_states_are_relative_to_their_nominal_size) {
+  const Outcome one = quiet_run(1.0, "", 1e-4), small = quiet_run(1e-6, R"(, "nominal": 1e-6)", 1e-4);
+  const auto steps = static_cast<double>(one.summary.steps.accepted);
+  EXPECT_NEAR(static_cast<double>(small.summary.steps.accepted), steps, 0.02 * steps);
+  EXPECT_NEAR(small.history.last("u"), 1e-6 * one.history.last("u"), 1e-10);
+  EXPECT_LT(static_cast<double>(quiet_run(1e-6, "", 1e-4).summary.steps.accepted), 0.25 * steps);
+}
+
+// A lag of 5 ms that a jump wakes after a second of rest:  x = 1 - exp(-200 (t - 1)).
+TEST(StepControl, a_state_that_jumps_is_met_again) {
+  const Outcome r = support::run_ok(support::scene_of(R"-({
+  "analysis": {"kind": "dynamic", "end_time": 2, "step_size": 1e-3, "tolerance": 1e-11,
+               "step_control": {"tolerance": 1e-4}},
+  "bodies": [{"name": "slider", "mass": 2, "inertia": [1, 1, 1]}],
+  "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "slider", "axis": [1, 0, 0],
+              "forces": [{"stiffness": 10, "damping": 1}]}],
+  "signals": [{"name": "u", "kind": "time", "law": {"expression": "step(t - 1)"}},
+              {"name": "x", "kind": "state", "expression": "200*(u - x)"}],
+  "sensors": [{"name": "at", "kind": "joint_displacement", "joint": "rail"},
+              {"name": "x", "kind": "signal", "signal": "x"}],
+  "expected": [{"quantity": "x", "time": 1.005, "value": 0.63212055882856, "tolerance": 1e-3,
+                "source": "1 - exp(-1)"},
+               {"quantity": "x", "value": 1, "tolerance": 1e-6, "source": "the end of the lag"}]})-"));
+  for (const records::ExpectedResult& figure : r.summary.expected) EXPECT_TRUE(figure.holds) << figure.value;
+}
+
 }  // namespace
 }  // namespace bough::run

@@ -9,7 +9,10 @@
 /// it: the step's own matrix S = K + c1 C + c2 M with its constraints carries it to where the step does,
 ///   [S G^T; G 0] (e, mu) = (c2 M e_q, 0),
 /// so that vibrations which the step filters and directions which constraints fix count no more than they move. v'''
-/// is the change of e / (C_q h^3) from step to step. Sources: Zienkiewicz, Xie 1991 (error from the change of
+/// is the change of e / (C_q h^3) from step to step. A state x' = f of a signal leaves, with the alpha_m of its rule,
+///   e_x = h^3 C_x x''',   C_x = 1/12 + (alpha_m - alpha_f)(alpha_f - 1/2)
+/// which the row of its equation carries to where the step does: s e_x on the right-hand side, s = d(x')/dx of the
+/// step. x''' is the second difference of x' over the last steps. Sources: Zienkiewicz, Xie 1991 (error from the change of
 /// accelerations); Hairer, Wanner 1996, IV.8 (error filtered by the step's matrix).
 #include <optional>
 #include <string>
@@ -37,6 +40,7 @@ ErrorConstants make_error_constants(const AlphaCoefficients& c);
 /// What the last measured error asked for small steps.
 struct ErrorLimit {
   int node = -1;             ///< in Plan::nodes, where it was largest
+  int signal = -1;           ///< in Plan::signals: of a state rather than of a motion; then there is no node
   bool is_velocity = false;  ///< of a velocity rather than of a place
   bool is_energy = false;    ///< of an energy of the whole structure; then there is no node
   double frequency =
@@ -70,6 +74,7 @@ class LocalError {
   /// Largest parts of the last measured error over what they are compared with: size + allowance / tolerance [-].
   double relative_motion() const;    ///< of positions and rotations
   double relative_velocity() const;  ///< of velocities
+  double relative_state() const;     ///< of states of signals, over 1 or the largest value so far
   double relative_energy() const { return energy_; }
 
   /// `after` with its nodes displaced by the last measured e_q, and velocities changed by e_v as far as it is known:
@@ -93,9 +98,11 @@ class LocalError {
   /// What errors are compared with: size + allowance / tolerance.
   ErrorParts sizes() const;
   void shift_accelerations(const State& after, State& to) const;
+  void enter_states(System& system, const State& after, std::vector<double>& rhs);
 
   const plan::Plan& plan_;
   ErrorConstants constants_;
+  double spectral_radius_;
   AlphaCoefficients alpha_;
   ErrorParts least_, allowance_;  ///< least sizes; absolute tolerances over the relative one
   double speed_ = 0.0, spin_ = 0.0;
@@ -110,12 +117,20 @@ class LocalError {
     double arm = 0.0;  ///< of its rotation at what is looked at [m], counted with its place
   };
   std::vector<Watched> watched_;  ///< by node
+  /// A state of a signal. All of them count, seen by sensors or not.
+  struct WatchedState {
+    std::size_t signal = 0;
+    double size = 1.0;                       ///< 1, or the largest so far
+    double error = 0.0;                      ///< e_x / h^3
+    double trend = 0.0, trend_before = 0.0;  ///< change of x' over the last measured step and the one before, by h
+  };
+  std::vector<WatchedState> states_;
   State shifted_;
 };
 
 /// Step sizes from errors. A step is accepted where its local error keeps
-///   E = max(e_q / tolerance^(3/2), e_v / tolerance, e_E / tolerance^(3/2)) <= 1,
-/// e relative to sizes, e_E of energies where sensors show these. The integrator is of second order, so steps are of
+///   E = max(e_q / tolerance^(3/2), e_v / tolerance, e_x / tolerance^(3/2), e_E / tolerance^(3/2)) <= 1,
+/// e relative to sizes, e_x of states of signals, e_E of energies where sensors show these. The integrator is of second order, so steps are of
 /// the order of tolerance^(1/2) of the motion's characteristic time, and the local errors of one such time add up to
 /// about the tolerance: the global error follows the tolerance (tolerances are transformed so by RADAU5, too, Hairer,
 /// Wanner 1996, IV.8). Error per unit of time would do the same, but not where parts vibrate faster than the step:
