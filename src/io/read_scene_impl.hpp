@@ -83,6 +83,19 @@ class Converter : private ValueConverter {
   void signal(const Value& v, const std::string& at);
   laws::Law law_or_signal(const Value& v, const std::string& at, std::string& signal);
 
+  // What signals drive and what is made of other parts (read_scene_driven.cpp).
+  struct Weight {
+    std::string along;  ///< part of the names of its loads
+    scene::Vec3 direction;
+    laws::Law law;
+    std::string signal;
+  };
+  void need_signal(const std::string& name, const std::string& at);
+  std::string signal_of(const Value& v, const std::string& at, const std::string& name);
+  void driven_spring(const Value& v, const std::string& at, const scene::Spring& s);
+  void driven_gravity(const Value& v);
+  void weigh();
+
   // The rest (read_scene_rest.cpp).
   void load(const Value& v, const std::string& at);
   void motion(const Value& v, const std::string& at);
@@ -127,6 +140,7 @@ class Converter : private ValueConverter {
   std::unordered_set<std::string> measure_names_;
   std::vector<std::string> signal_names_;      ///< of all signals of the document
   std::vector<std::string> own_signal_names_;  ///< of those that the reader makes
+  std::vector<Weight> weights_;                ///< gravity that is made of loads
   int unnamed_ = 0;
   std::optional<scene::Poses> poses_;
 };

@@ -233,9 +233,15 @@ void Converter::settings() {
   };
   if (const Value* title = sound("title")) scene.title = title->text;
   if (const Value* g = sound("gravity")) {
-    scene.gravity = vector(g->is(JsonKind::array) ? *g : *g->find("vector"));
-    std::string signal;  // none: the schema takes laws alone
-    scene.gravity_law = load_law(g->is(JsonKind::array) ? Value{} : *g, "/gravity", signal);
+    const Value* factor = g->is(JsonKind::object) ? g->find("law") : nullptr;
+    const bool is_of_signal = factor != nullptr && factor->is(JsonKind::object) && factor->find("signal") != nullptr;
+    if (g->is(JsonKind::object) && (is_of_signal || g->find("vector") == nullptr)) {
+      driven_gravity(*g);
+    } else {
+      scene.gravity = vector(g->is(JsonKind::array) ? *g : *g->find("vector"));
+      std::string signal;  // none
+      scene.gravity_law = load_law(g->is(JsonKind::array) ? Value{} : *g, "/gravity", signal);
+    }
   }
   if (const Value* a = sound("analysis")) {
     scene::Analysis& r = scene.analysis;
@@ -355,6 +361,7 @@ void Converter::convert() {
   each("sensors", &Converter::sensor);
   each("expected", &Converter::expected);
   each("measures", &Converter::measure);
+  weigh();
 }
 
 }  // namespace bough::io

@@ -38,7 +38,6 @@ RuleRef joint_kind_rule() {
   }
   return word_rule(lasting(std::move(about)).c_str(), std::move(names));
 }
-Field law_field(Literal about) { return may("law", named_rule("law"), about, "1"); }
 Field factor_field(Literal about) { return may("law", named_rule("law_or_signal"), about, {}); }
 Field frame_field(Literal about) { return may("frame", reference, about); }
 
@@ -164,12 +163,18 @@ void add_joints(RuleTable& t) {
        may("forces", array_rule("", force, 0, 4), "Springs, dampers and efforts along its coordinates.", "[]"),
        may("drives", array_rule("", drive), "Prescribed coordinates.", "[]")}));
 
-  t.named["spring"] = made(object_of(
+  Rule spring = object_of(
       "Spring and damper along the line between two points.",
       {name_field(), need("first", named_rule("attachment"), "One end."),
        need("second", named_rule("attachment"), "The other end."), may("stiffness", not_negative(""), "[N/m].", "0"),
        may("rest_length", not_negative(""), "[m]. Default: the distance at the start."),
-       may("damping", not_negative(""), "[N s/m].", "0")}));
+       may("rest_law", named_rule("law_or_signal"),
+           "Rest length that changes [m], in the place of rest_length. The spring is a strut of its name then."),
+       may("stiffness_factor", named_rule("law_or_signal"),
+           "Factor of the stiffness that changes [-]. The spring is a strut of its name then. Default: 1."),
+       may("damping", not_negative(""), "[N s/m].", "0")});
+  spring.at_most_one = {{"rest_length", "rest_law"}};
+  t.named["spring"] = made(std::move(spring));
   const RuleRef six = choice_rule("", {named_rule("diagonal6"), named_rule("matrix6")});
   t.named["bushing"] =
       made(object_of("Elastic and viscous coupling of all relative motions of two frames, in the axes of the first; at "
@@ -391,10 +396,15 @@ RuleTable make_table() {
        need("schema_version", integer_rule("", 1, 1), "Version of the format: 1."),
        may("title", text_rule(""), "One line.", "\"\""),
        may("gravity",
-           choice_rule(
-               "", {named_rule("vector"),
-                    made(object_of("Gravity that changes.", {need("vector", named_rule("vector"), "[m/s^2], inertial."),
-                                                             law_field("Factor over time.")}))}),
+           choice_rule("", {named_rule("vector"),
+                            made(object_of("Gravity that changes by a factor.",
+                                           {need("vector", named_rule("vector"), "[m/s^2], inertial."),
+                                            may("law", named_rule("law_or_signal"), "Factor over time.", "1")},
+                                           "vector")),
+                            made(object_of("Gravity whose components change, made of weights of all bodies and beams.",
+                                           {need("components", array_rule("", named_rule("law_or_signal"), 3, 3),
+                                                 "Along the ground's x, y and z [m/s^2].")},
+                                           "components"))}),
            "Acceleration of gravity [m/s^2], inertial.", "[0, 0, 0]"),
        need("analysis", named_rule("analysis"), "What is computed."),
        may("solver", named_rule("solver"), "Linear solver.", "{}"),

@@ -173,6 +173,14 @@ const Bad frame_cases[] = {
      "/motions/0/z/terms/1", "a signal of kind \"formula\""},
     {"\"stiffness\": 10 }", "\"stiffness\": @{ \"signal\": \"a\" } }", "/springs/0/stiffness",
      "this number is constant"},
+    {"\"stiffness\": 10 }", "\"stiffness\": 10, \"stiffness_factor\": { \"signal\": @\"a\" } }",
+     "/springs/0/stiffness_factor/signal", "the scene has no signals"},
+    {"\"stiffness\": 10 }", "\"stiffness\": 10, \"rest_law\": { \"signal\": @\"a\" } }", "/springs/0/rest_law/signal",
+     "no signal has this name"},
+    {"{ \"name\": \"coil\",", "@{ \"name\": \"coil\", \"rest_length\": 1, \"rest_law\": 1,", "/springs/0",
+     "takes only one of the keys"},
+    {"\"gravity\": [0, 0, -9.81],", "\"gravity\": { \"components\": [0, 0, { \"signal\": @\"a\" }] },",
+     "/gravity/components/2/signal", "no signal has this name"},
     {"\"title\": \"base\",",
      "\"title\": \"base\", \"signals\": [ { \"name\": \"a\", \"kind\": \"state\", \"expression\": \"1\", "
      "\"nominal\": @0 } ],",
@@ -329,8 +337,8 @@ const Bad frame_cases[] = {
      "\"position\": [0, @{ \"signal\": \"y\" }, 1], \"rotation\": { "
      "\"axis\"",
      "/frames/0/position/1", "has to be a law of time here"},
-    {"\"gravity\": [0, 0, -9.81]", "\"gravity\": { \"vector\": [0, 0, -9.81], \"law\": @{ \"signal\": \"y\" } }",
-     "/gravity/law", "has to be a law of time here"},
+    {"\"gravity\": [0, 0, -9.81]", "\"gravity\": { \"vector\": [0, 0, -9.81], \"law\": { \"signal\": @\"y\" } }",
+     "/gravity/law/signal", "no signal has this name"},
 };
 
 struct Expectation {
