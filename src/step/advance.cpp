@@ -119,11 +119,12 @@ void note_end(System& system, const AlphaRule& rule, const State& start, State& 
   std::vector<Workspace::StepEnd>& parts = system.work().step_ends;
   const std::int64_t count = system.node_order()->by_visit().count();
   parts.resize(static_cast<std::size_t>((count + eight_grain - 1) / eight_grain));
+  system.work().misses.resize(system.plan().nodes.size());
   state.change_all([&]<class G>(NodesOn<G>& nodes) {
     auto some = [&](std::int64_t begin, std::int64_t end) {
       parts[static_cast<std::size_t>(begin / eight_grain)] =
           finish_nodes(rule, arm, per_length, start.on<G>(), nodes, *system.node_order(),
-                       static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
+                       static_cast<std::size_t>(begin), static_cast<std::size_t>(end), system.work().misses.data());
     };
     system.walker().for_each_chunk(count, eight_grain, tree::make_chunk(some));
   });
@@ -133,11 +134,13 @@ void note_end(System& system, const AlphaRule& rule, const State& start, State& 
 void note_whole_end(System& system, const State& start, State& state) {
   Workspace::StepEnd whole;
   for (const Workspace::StepEnd& part : system.work().step_ends) {
-    for (std::size_t k = 0; k < whole.misses.size(); ++k) whole.misses[k] += part.misses[k];
     whole.error = std::max(whole.error, part.error);
     whole.increment = std::max(whole.increment, part.increment);
   }
-  state.predictor_order = least_missed(whole.misses);
+  Misses misses{};  // summed in the order of nodes, which no number of threads changes
+  for (const Misses& of_node : system.work().misses)
+    for (std::size_t k = 0; k < misses.size(); ++k) misses[k] += of_node[k];
+  state.predictor_order = least_missed(misses);
   state.local_error = whole.error;
   state.increment = whole.increment;
   system.corrections().note_multipliers(start, state);

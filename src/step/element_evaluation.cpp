@@ -75,10 +75,6 @@ void ElementEvaluation::take_frames() {
   if (!plan_.frames.empty()) std::get<LanesOn<motion::Se3>>(lanes_)->set_frames(instant_.frames());
 }
 
-std::span<const solve::ElementBatch> ElementEvaluation::batches() const {
-  return std::visit([](const auto& lanes) { return lanes->batches(); }, lanes_);
-}
-
 template <class G>
 void ElementEvaluation::evaluate_alone(std::size_t id, const State& state, const elements::FieldOn<G, double>& f,
                                        const ElementResults& to) {

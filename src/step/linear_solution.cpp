@@ -28,6 +28,32 @@ std::string BlockOwners::name(int block) const {
   return j.what + " '" + j.name + "'";
 }
 
+namespace {
+
+/// Visits in the order of an upward walk of one thread, in runs with at least so many batches of elements. The first visit
+/// of a run stands for all: on the way up it comes before the others, on the way down after them.
+solve::SolverVisits in_runs(solve::SolverVisits visits) {
+  constexpr int least_batches = 64;
+  std::vector<int> first_of(visits.parent.size());
+  std::vector<int> batch_begin = visits.batch_begin;
+  int first = 0;
+  for (int v = 0; v < visits.count(); ++v) {
+    const auto at = static_cast<std::size_t>(v);
+    first_of[at] = first;
+    visits.parent[at] = v + 1 < visits.count() ? v + 1 : -1;
+    if (v > first) batch_begin[at] = -1;  // its batches belong to the first of the run
+    if (visits.batch_begin[at + 1] - visits.batch_begin[static_cast<std::size_t>(first)] >= least_batches)
+      first = v + 1;
+  }
+  for (std::size_t v = visits.parent.size(); v-- > 0;)
+    if (batch_begin[v] < 0) batch_begin[v] = batch_begin[v + 1];
+  visits.batch_begin = std::move(batch_begin);
+  for (int& visit : visits.of_block) visit = first_of[static_cast<std::size_t>(visit)];
+  return visits;
+}
+
+}  // namespace
+
 LinearSolution::LinearSolution(const plan::Plan& plan, const scene::Solver& solver, const tree::Walker& walker,
                                CpuClock& clock, WorkCounts& counts)
     : plan_(plan),
@@ -39,6 +65,7 @@ LinearSolution::LinearSolution(const plan::Plan& plan, const scene::Solver& solv
       solver_(make_solver(plan, *tree_, solver)),
       visits_(solver_->visits(plan.graph.num_blocks())),
       takes_symmetric_parts_(plan.took("symmetric")) {
+  if (walker.threads == 1) visits_ = in_runs(std::move(visits_));
   element_begin_.push_back(0);
   const std::span<const solve::ElementBatch> batches = std::as_const(*solver_).batches();
   for (std::size_t v = 0; v < visits_.parent.size(); ++v) {

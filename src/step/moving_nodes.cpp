@@ -317,7 +317,8 @@ double predict_nodes(const AlphaRule& rule, int degree, const NodesOn<G>& start,
 
 template <class G>
 Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_length, const NodesOn<G>& start,
-                                NodesOn<G>& state, const NodeOrder& order, std::size_t begin, std::size_t end) {
+                                NodesOn<G>& state, const NodeOrder& order, std::size_t begin, std::size_t end,
+                                Misses* misses) {
   using Numbers = NodeNumbers<G>;
   Workspace::StepEnd part;
   const auto size = [arm](const VectorLanes<G>& a) {
@@ -338,8 +339,8 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_le
     const VectorLanes<G> change = rates[1] - before[1], of_change = change - trend;
     state.algorithmic.eight(k) = rule.follow(rates[2], before[0], before[1], start.algorithmic.eight(k)).algorithmic;
     const Pack miss[] = {size(change), size(of_change), size(of_change - of_trend)};
-    for (std::size_t i = 0; i < part.misses.size(); ++i)
-      for (int l = 0; l < eight.count; ++l) part.misses[i] += miss[i][l];
+    for (std::size_t i = 0; i < std::size(miss); ++i)
+      for (int l = 0; l < eight.count; ++l) misses[eight.node[static_cast<std::size_t>(l)]][i] = miss[i][l];
     part.error =
         std::max(part.error,
                  largest(rule.local_error(change, motion::VectorsOn<G>::template bracket<Pack>(rates[0], rates[1]))));
@@ -398,7 +399,7 @@ double largest_change(std::span<const PairLanes> pairs, const NodeChange<G>* cha
   template double correct_nodes<G>(const AlphaRule&, const NodesOn<G>&, NodesOn<G>&, const NodeOrder&, std::size_t,    \
                                    std::size_t, const NodeIncrements&, NodeChange<G>*);                                \
   template Workspace::StepEnd finish_nodes<G>(const AlphaRule&, double, double, const NodesOn<G>&, NodesOn<G>&,        \
-                                              const NodeOrder&, std::size_t, std::size_t);                             \
+                                              const NodeOrder&, std::size_t, std::size_t, Misses*);                    \
   template double largest_change<G>(std::span<const PairLanes>, const NodeChange<G>*);
 BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
 

@@ -56,11 +56,12 @@ double predict_nodes(const AlphaRule& rule, int degree, const NodesOn<G>& start,
                      const NodeOrder& order, std::size_t begin, std::size_t end);
 
 /// At the end of a step: stores the acceleration-like variable, and the changes of accelerations for the next
-/// predictor, and returns the errors of the predictors of order 0, 1, 2, the local error and the size of dq. `arm` [m]
-/// converts angular to linear accelerations; `per_length` [1/m] makes lengths relative.
+/// predictor, stores the squared errors of the predictors of order 0, 1, 2 by node, and returns the local error and the
+/// size of dq. `arm` [m] converts angular to linear accelerations; `per_length` [1/m] makes lengths relative.
 template <class G>
 Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_length, const NodesOn<G>& start,
-                                NodesOn<G>& state, const NodeOrder& order, std::size_t begin, std::size_t end);
+                                NodesOn<G>& state, const NodeOrder& order, std::size_t begin, std::size_t end,
+                                Misses* misses);
 
 /// The largest squared relative displacement or rotation of the pairs (Corrections::relative_size); infinite if one
 /// exceeds the bound too_far or is not a number.

@@ -1,6 +1,7 @@
 #include "bough/step/step_cost.hpp"
 
 #include <type_traits>
+#include <vector>
 
 #include "element_parts.hpp"
 
@@ -41,22 +42,33 @@ constexpr double bytes_near = 16e6;
 // with pivoting, and its null vectors are computed; least multipliers and consistent right-hand sides.
 constexpr double per_dependent_row = 5e-6, per_dependent_row_solved = 7e-7;
 
+/// Elements of one kind are evaluated eight at a time where there are at least `least_lanes` of them. How they are put
+/// together depends on the number of threads, of which the cost must not depend, since it decides on factorizations.
 template <class G>
-void add_elements(const plan::Plan& plan, const solve::ElementBatch& batch, StepCost& cost) {
-  int present = 0, first = -1;
-  for (int id : batch.element) {
-    if (id < 0) continue;
-    ++present;
-    first = first < 0 ? id : first;
+void add_elements(const plan::Plan& plan, StepCost& cost) {
+  std::vector<int> present;  // by array of elements
+  std::vector<std::size_t> first;
+  for (std::size_t e = 0; e < plan.directory.size(); ++e) {
+    const auto array = static_cast<std::size_t>(plan.directory[e].array);
+    if (plan.graph.element_begin[e] == plan.graph.element_begin[e + 1]) continue;  // no unknown sees it
+    if (is_idle_joint(plan, plan.joint_of_element[e])) continue;
+    if (array >= present.size()) {
+      present.resize(array + 1, 0);
+      first.resize(array + 1, 0);
+    }
+    if (present[array]++ == 0) first[array] = e;
   }
-  if (first < 0) return;
-  const bool in_lanes = present >= least_lanes;
-  plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(first)], [&](const auto& element) {
-    const elements::Cost& c = std::decay_t<decltype(element)>::cost;
-    const double count = in_lanes ? solve::lanes_wide : present, sums = present * per_sum;
-    cost.residual += elements::residual_part<G> * count * (in_lanes ? c.lane : c.alone) + sums;
-    cost.tangent += tangent_part<G> * count * (in_lanes ? c.lane_tangent : c.alone_tangent) + sums;
-  });
+  for (std::size_t array = 0; array < present.size(); ++array) {
+    if (present[array] == 0) continue;
+    plan::with_element(plan.elements, plan.directory[first[array]], [&](const auto& element) {
+      const elements::Cost& c = std::decay_t<decltype(element)>::cost;
+      const bool in_lanes = present[array] >= least_lanes;
+      const int packs = (present[array] + solve::lanes_wide - 1) / solve::lanes_wide;
+      const double count = in_lanes ? packs * solve::lanes_wide : present[array], sums = present[array] * per_sum;
+      cost.residual += elements::residual_part<G> * count * (in_lanes ? c.lane : c.alone) + sums;
+      cost.tangent += tangent_part<G> * count * (in_lanes ? c.lane_tangent : c.alone_tangent) + sums;
+    });
+  }
 }
 
 /// Constraint rows that depend on others, from the numbers of freedoms and of conditions that close loops. Groups of
@@ -74,7 +86,7 @@ template <class G>
 StepCost estimate_on(const System& system) {
   const plan::Plan& plan = system.plan();
   StepCost cost;
-  for (const solve::ElementBatch& batch : system.elements().batches()) add_elements<G>(plan, batch, cost);
+  add_elements<G>(plan, cost);
   const solve::SolverCounters counters = system.linear().solver().counters();
   const auto bytes = static_cast<double>(counters.memory_bytes);
   double alone = 0.0, in_registers = 0.0;  // fronts

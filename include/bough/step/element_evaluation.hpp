@@ -44,8 +44,6 @@ class ElementEvaluation {
   /// without magnitudes. Nodes keep other digits there than they have in space, so these elements respond with other
   /// forces.
   void evaluate_as_seen(const State& state);
-  /// Groups of elements that are evaluated together.
-  std::span<const solve::ElementBatch> batches() const;
 
   /// Puts an element's matrix, row-major in all of its unknowns, in the place of its tangent, or adds it there. Several
   /// threads may do so for different elements. LinearSolution::begin_matrices has to be called before.

@@ -23,12 +23,12 @@ struct Workspace {
   std::vector<double> rhs, x;  ///< of the linear system
   State start;                 ///< of a step
   State before;                ///< statics: where an iteration started
-  /// Quantities at the end of a step, of a chunk of nodes.
+  /// Quantities at the end of a step, of a chunk of nodes, as State::local_error and State::increment.
   struct StepEnd {
-    Misses misses{};                      ///< of accelerations
-    double error = 0.0, increment = 0.0;  ///< as State::local_error and State::increment
+    double error = 0.0, increment = 0.0;
   };
   std::vector<StepEnd> step_ends;  ///< by chunk of eights
+  std::vector<Misses> misses;      ///< of accelerations, by node
   std::vector<double> eight_most;  ///< by eight of nodes: the largest of something
 };
 
