@@ -30,8 +30,8 @@ std::string BlockOwners::name(int block) const {
 
 namespace {
 
-/// Visits in the order of an upward walk of one thread, in runs with at least so many batches of elements. The first visit
-/// of a run stands for all: on the way up it comes before the others, on the way down after them.
+/// Visits in the order of an upward walk of one thread, in runs with at least so many batches of elements. The first
+/// visit of a run stands for all: on the way up it comes before the others, on the way down after them.
 solve::SolverVisits in_runs(solve::SolverVisits visits) {
   constexpr int least_batches = 64;
   std::vector<int> first_of(visits.parent.size());

@@ -38,8 +38,8 @@ constexpr double per_flop_of_others = 1.1e-9;  ///< time per flop of monolithic 
 constexpr double per_front_solved = 1.5e-7, per_front_solved_registers = 4e-8, per_byte_near = 1.1e-11,
                  per_byte_far = 5e-11;
 constexpr double bytes_near = 16e6;
-// Per dependent row, from N windows of four-bars in space, N = 40 to 160: the front in which its loop closes is factored
-// with pivoting, and its null vectors are computed; least multipliers and consistent right-hand sides.
+// Per dependent row, from N windows of four-bars in space, N = 40 to 160: the front in which its loop closes is
+// factored with pivoting, and its null vectors are computed; least multipliers and consistent right-hand sides.
 constexpr double per_dependent_row = 5e-6, per_dependent_row_solved = 7e-7;
 
 /// Elements of one kind are evaluated eight at a time where there are at least `least_lanes` of them. How they are put

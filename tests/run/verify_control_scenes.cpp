@@ -92,8 +92,9 @@ scene::Scene block(const std::vector<std::string>& overrides) {
   return file.scene;
 }
 
-// While the block, which moves with the belt, sticks, bristle and block are a linear oscillator: with y = z the bristle,
-// x'' = -100 x + s0 z + s1 z', z' = v - x', x(0) = z(0) = 0, x'(0) close to v. The reference is Richardson's of finer steps.
+// While the block, which moves with the belt, sticks, bristle and block are a linear oscillator: with y = z the
+// bristle, x'' = -100 x + s0 z + s1 z', z' = v - x', x(0) = z(0) = 0, x'(0) close to v. The reference is Richardson's
+// of finer steps.
 TEST(ControlScenes, a_bristle_that_sticks_has_the_order_of_the_scheme) {
   for (const Dimension& dimension : dimensions)
     for (const Scheme& scheme : schemes) {
@@ -111,8 +112,8 @@ TEST(ControlScenes, a_bristle_that_sticks_has_the_order_of_the_scheme) {
     }
 }
 
-// The figures of the scene, of Coulomb's law with 6 and 4 N: a block that sticks for 0.4 s, at the speed of the belt, and
-// slips for 0.40689 s.
+// The figures of the scene, of Coulomb's law with 6 and 4 N: a block that sticks for 0.4 s, at the speed of the belt,
+// and slips for 0.40689 s.
 TEST(ControlScenes, a_block_sticks_and_slips_in_every_dimension) {
   for (const Dimension& dimension : dimensions) {
     SCOPED_TRACE(dimension.name);

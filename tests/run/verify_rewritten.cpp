@@ -1,5 +1,5 @@
-// Scenes rewritten with signals: what laws, springs and gravity do there, signals do. Laws of time keep every bit; forces
-// by formulas and weights differ by round-off and the tolerance of Newton's method.
+// Scenes rewritten with signals: what laws, springs and gravity do there, signals do. Laws of time keep every bit;
+// forces by formulas and weights differ by round-off and the tolerance of Newton's method.
 #include <gtest/gtest.h>
 
 #include <algorithm>

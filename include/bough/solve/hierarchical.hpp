@@ -52,10 +52,10 @@ class Hierarchical {
   void trust_symmetry(bool mirrored);
 
   /// Assembles, factors and condenses all sub-domains. Allocates only if delayed pivots enlarge a front, if fronts
-  /// leave lanes or registers for the first time, or if rows are dependent. `before` writes the element matrices of each
-  /// visit; where scales are computed, which takes all matrices, in a walk of its own. With `rhs` (num_unknowns), whose
-  /// entries a visit eliminates `before` may write, too, the right-hand side is condensed in the same visits, while a
-  /// front is in the cache; substitute() then solves.
+  /// leave lanes or registers for the first time, or if rows are dependent. `before` writes the element matrices of
+  /// each visit; where scales are computed, which takes all matrices, in a walk of its own. With `rhs` (num_unknowns),
+  /// whose entries a visit eliminates `before` may write, too, the right-hand side is condensed in the same visits,
+  /// while a front is in the cache; substitute() then solves.
   [[nodiscard]] FactorStatus factor(const tree::Walker& walker, VisitWork before = {}, const double* rhs = nullptr);
 
   /// Condenses a right-hand side upward with the last factorization; `before` may write the entries that each visit

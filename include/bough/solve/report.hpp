@@ -116,9 +116,9 @@ struct SolverCounters {
       0;  ///< fronts that left their lane for scalar elimination with pivoting, over all factorizations.
 };
 
-/// Work of the caller in the visits of a walk (SolverVisits): on the way up before the elements of a visit are assembled
-/// and its right-hand side is condensed, on the way down after its unknowns are known. May run concurrently for
-/// different visits, never for a visit before its children on the way up, or before its parent on the way down.
+/// Work of the caller in the visits of a walk (SolverVisits): on the way up before the elements of a visit are
+/// assembled and its right-hand side is condensed, on the way down after its unknowns are known. May run concurrently
+/// for different visits, never for a visit before its children on the way up, or before its parent on the way down.
 struct VisitWork {
   void (*run)(void* context, int visit) = nullptr;
   void* context = nullptr;
@@ -135,7 +135,7 @@ VisitWork make_visit_work(Body& body) {
 /// The visits of a solver's walks: a sub-domain, or several in lockstep. A solver without sub-domains has one.
 struct SolverVisits {
   std::vector<int> parent;       ///< by visit; -1 at the root, which is the last. Children come before parents.
-  std::vector<int> batch_begin;  ///< by visit: its first element in batches(), and their number behind the last.
+  std::vector<int> batch_begin;  ///< by visit: its first batch in batches(), and the number of batches at the end.
   std::vector<int> of_block;     ///< by block: the visit that eliminates its unknowns.
   int count() const { return static_cast<int>(parent.size()); }
 };

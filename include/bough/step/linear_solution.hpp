@@ -48,9 +48,9 @@ class LinearSolution {
   solve::AnySolver& solver() { return *solver_; }
   const solve::AnySolver& solver() const { return *solver_; }
 
-  /// The visits of the solver's walks in which elements are evaluated and nodes are moved, and the elements of one. With
-  /// one thread, whose walks have a fixed order, these are the first visits of runs that together have so many elements
-  /// that few lanes stay empty; all others have none.
+  /// The visits of the solver's walks in which elements are evaluated and nodes are moved, and the elements of one.
+  /// With one thread, whose walks have a fixed order, these are the first visits of runs that together have so many
+  /// elements that few lanes stay empty; all others have none.
   const solve::SolverVisits& visits() const { return visits_; }
   std::span<const int> elements_of_visit(int visit) const;
   /// Calls `work` in an upward walk.

@@ -12,8 +12,8 @@
 /// is the change of e / (C_q h^3) from step to step. A state x' = f of a signal leaves, with the alpha_m of its rule,
 ///   e_x = h^3 C_x x''',   C_x = 1/12 + (alpha_m - alpha_f)(alpha_f - 1/2)
 /// which the row of its equation carries to where the step does: s e_x on the right-hand side, s = d(x')/dx of the
-/// step. x''' is the second difference of x' over the last steps. Sources: Zienkiewicz, Xie 1991 (error from the change of
-/// accelerations); Hairer, Wanner 1996, IV.8 (error filtered by the step's matrix).
+/// step. x''' is the second difference of x' over the last steps. Sources: Zienkiewicz, Xie 1991 (error from the change
+/// of accelerations); Hairer, Wanner 1996, IV.8 (error filtered by the step's matrix).
 #include <optional>
 #include <string>
 #include <vector>
@@ -130,14 +130,14 @@ class LocalError {
 
 /// Step sizes from errors. A step is accepted where its local error keeps
 ///   E = max(e_q / tolerance^(3/2), e_v / tolerance, e_x / tolerance^(3/2), e_E / tolerance^(3/2)) <= 1,
-/// e relative to sizes, e_x of states of signals, e_E of energies where sensors show these. The integrator is of second order, so steps are of
-/// the order of tolerance^(1/2) of the motion's characteristic time, and the local errors of one such time add up to
-/// about the tolerance: the global error follows the tolerance (tolerances are transformed so by RADAU5, too, Hairer,
-/// Wanner 1996, IV.8). Error per unit of time would do the same, but not where parts vibrate faster than the step:
-/// errors there are their amplitude, whatever the step, and smaller steps would only make matters worse. Velocities of
-/// smooth motions follow positions; those of such vibrations are held to the tolerance of the whole, not of a step, for
-/// the same reason. The next size is a PI controller's (Gustafsson 1991; Soderlind 2003, integral and proportional
-/// gains 0.6/3 and 0.4/3),
+/// e relative to sizes, e_x of states of signals, e_E of energies where sensors show these. The integrator is of second
+/// order, so steps are of the order of tolerance^(1/2) of the motion's characteristic time, and the local errors of one
+/// such time add up to about the tolerance: the global error follows the tolerance (tolerances are transformed so by
+/// RADAU5, too, Hairer, Wanner 1996, IV.8). Error per unit of time would do the same, but not where parts vibrate
+/// faster than the step: errors there are their amplitude, whatever the step, and smaller steps would only make matters
+/// worse. Velocities of smooth motions follow positions; those of such vibrations are held to the tolerance of the
+/// whole, not of a step, for the same reason. The next size is a PI controller's (Gustafsson 1991; Soderlind 2003,
+/// integral and proportional gains 0.6/3 and 0.4/3),
 ///   h (safety / E_n)^0.2 max(1/2, E_{n-1} / E_n)^0.133,   0.2 h to 4 h,
 /// after an accepted step, h (safety / E_n)^(1/3) after a rejected one. A change costs three factors, so a size stays
 /// while the next would be between 0.9 and 1.25 of it; it grows by the largest E (fading by 0.85 a step) of at least

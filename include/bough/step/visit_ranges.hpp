@@ -27,8 +27,8 @@ class VisitRanges {
   std::int64_t count() const { return begin_.empty() ? 0 : begin_.back(); }
 
   /// Calls f(begin, end) for the items of a visit: at once, or in chunks of `grain` items on several threads where the
-  /// visit has a large part of all items, so that other visits cannot occupy the threads. Results must not depend on the
-  /// division. No allocation.
+  /// visit has a large part of all items, so that other visits cannot occupy the threads. Results must not depend on
+  /// the division. No allocation.
   template <class F>
   void for_each(const tree::Walker& walker, int visit, std::int64_t grain, F&& f) const {
     const std::int64_t first = begin(visit), size = end(visit) - first;
