@@ -64,7 +64,7 @@ std::unique_ptr<Analysis> make_analysis(const Parts& parts) {
     if (parts.options.arc_length) return std::make_unique<LoadPath>(parts);
     return std::make_unique<LoadSteps>(parts);
   }
-  if (kind == scene::inverse_dynamics) return make_inverse_dynamics(parts);
+  if (kind == scene::AnalysisKind::inverse_dynamics) return make_inverse_dynamics(parts);
   if (parts.options.step_control) return std::make_unique<ControlledSteps>(parts);
   return std::make_unique<EqualSteps>(parts);
 }

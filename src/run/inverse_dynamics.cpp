@@ -5,7 +5,7 @@
 #include "analysis.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/plan/undriven.hpp"
-#include "bough/step/consistent.hpp"
+#include "bough/step/advance.hpp"
 
 namespace bough::run {
 

@@ -6,7 +6,7 @@ const std::vector<AnalysisType>& analysis_types() {
   static const std::vector<AnalysisType> types = {
       {AnalysisKind::statics, "static", false, false},
       {AnalysisKind::dynamics, "dynamic", true, true},
-      {inverse_dynamics, "inverse_dynamics", true, false},
+      {AnalysisKind::inverse_dynamics, "inverse_dynamics", true, false},
   };
   return types;
 }

@@ -164,7 +164,7 @@ std::optional<Trouble> LinearSolution::solve(const double* rhs, double* x, bool 
     static_cast<void>(solver_->solve(walker_, rhs, x, false));
     return std::nullopt;  // the caller notices a solution that is not finite by the size of the correction
   }
-  return judge(solver_->solve(walker_, rhs, x));
+  return find_trouble(solver_->solve(walker_, rhs, x));
 }
 
 std::optional<Trouble> LinearSolution::substitute(const double* rhs, double* x, solve::VisitWork after) {
@@ -172,10 +172,10 @@ std::optional<Trouble> LinearSolution::substitute(const double* rhs, double* x, 
   ++counts_.solutions;
   const bool check = !may_skip_check();
   const solve::SolveReport solution = solver_->substitute(walker_, rhs, x, check, after);
-  return check ? judge(solution) : std::nullopt;
+  return check ? find_trouble(solution) : std::nullopt;
 }
 
-std::optional<Trouble> LinearSolution::judge(const solve::SolveReport& solution) {
+std::optional<Trouble> LinearSolution::find_trouble(const solve::SolveReport& solution) {
   unchecked_ = 0;
   last_solution_ = solution;
   is_trusted_ = last_solution_.backward_error <= good && last_solution_.refinement_steps == 0;

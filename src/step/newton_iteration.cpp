@@ -47,10 +47,10 @@ std::optional<Trouble> NewtonIteration::evaluate(const State& state) {
   std::optional<Trouble> t, of_factor;
   if (count() == 0 && fresh_)
     t = system_.evaluate_and_factor(state, slopes_, !may_reuse_, of_factor);
-  else if (is_condensed_ = count() == 0 || (may_reuse_ && expected_change() > negligible_); is_condensed_)
+  else if (count() == 0 || may_reuse_)
     t = system_.evaluate_and_condense(state, slopes_);
   else
-    t = system_.evaluate(state, slopes_, false);  // the iteration probably ends, or the matrix will be factored anew
+    t = system_.evaluate(state, slopes_, false);  // the matrix will be factored anew
   if (t) return t;
   report_.residual = system_.residual_size();
   const double before = std::exchange(size_, largest_share(system_, report_.residual));
@@ -58,17 +58,12 @@ std::optional<Trouble> NewtonIteration::evaluate(const State& state) {
   return of_factor;
 }
 
-/// Size of the next correction, if it were computed.
-double NewtonIteration::expected_change() const {
-  return (count() > 1 && rate_ <= shrinks ? unseen_growth * rate_ : 1.0) * report_.change;
-}
-
 bool NewtonIteration::is_converged() {
   if (count() == 0) return false;
   if (options_.single_solution) return true;
   const double tolerance = options_.tolerance, change = report_.change;
   const bool has_rate = count() > 1;
-  const double error = expected_change();
+  const double error = (has_rate && rate_ <= shrinks ? unseen_growth * rate_ : 1.0) * change;
   const bool still = error <= negligible_;
   if (still && is_settled_at(error)) return true;
   const bool lies_still = shrunk_ > shrinks && change <= least_change;
@@ -117,10 +112,7 @@ std::optional<Trouble> NewtonIteration::renew_factor(const State& state) {
   fresh_ = !may_reuse_ || is_slow || !linear.has_factor(slopes_);
   is_own_ |= fresh_;
   served_ = fresh_ ? 1 : served_ + 1;
-  if (!fresh_) {
-    if (!is_condensed_) linear.condense({}, system_.right_hand_side().data());
-    return std::nullopt;
-  }
+  if (!fresh_) return std::nullopt;
   std::optional<Trouble> of_factor;
   if (auto t = system_.evaluate_and_factor(state, slopes_, false, of_factor)) return t;
   if (!of_factor) return std::nullopt;

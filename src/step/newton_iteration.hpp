@@ -38,7 +38,6 @@ class NewtonIteration {
   bool is_settled_at(double error, double share = 1.0) const;
   bool is_noise_at(double expected) const;
   bool contracts_slowly() const;
-  double expected_change() const;
 
   System& system_;
   const StepOptions& options_;
@@ -48,7 +47,6 @@ class NewtonIteration {
   bool may_reuse_;
   double negligible_;          ///< remaining change of relative motions that is neglected
   bool fresh_;                 ///< the next solution needs a new factorization
-  bool is_condensed_ = false;  ///< the right-hand side of the last evaluation, in the same walk
   bool is_own_ = false;        ///< the present factorization was made in this step
   int served_ = 0;             ///< solutions in this step with the present factorization
   double previous_ = 0.0;      ///< size of the correction before the last

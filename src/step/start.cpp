@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include "bough/motion/vectors_on.hpp"
-#include "bough/step/consistent.hpp"
 #include "bough/step/residual_rate.hpp"
 #include "element_parts.hpp"
 #include "first_order.hpp"

@@ -9,10 +9,6 @@
 
 namespace bough::scene {
 
-/// Kinds beyond those that Analysis has data for: an entry of the table and a constant, so that a kind changes nothing
-/// in scene.hpp.
-inline constexpr AnalysisKind inverse_dynamics{2};
-
 struct AnalysisType {
   AnalysisKind kind;
   std::string_view name;  ///< in files

@@ -288,7 +288,7 @@ struct Sensor {
   std::vector<std::string> chain;  ///< acceleration_split: frames, nodes or bodies, each moving in the previous one
 };
 
-enum class AnalysisKind : std::uint8_t { statics, dynamics };
+enum class AnalysisKind : std::uint8_t { statics, dynamics, inverse_dynamics };
 enum class Newton : std::uint8_t { full, single };
 enum class Integrator : std::uint8_t { generalized_alpha, variational, bdf };
 

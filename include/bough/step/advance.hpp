@@ -49,6 +49,9 @@ struct StartReport {
 /// opens 1e-12 in one step of `step_size` [s].
 StartReport make_consistent(System& system, State& state, bool fix_positions, double step_size);
 
+/// make_consistent, with laws that jump at the state's time at their values on `side` of it.
+StartReport make_consistent_on(System& system, State& state, bool fix_positions, double step_size, laws::Side side);
+
 /// Prepares generalized-alpha for step size h from a consistent state: a_n = dv/dt + shift h (d2v/dt2), and
 /// velocities moved along the constraints' normals by the steady error of the index-3 scheme, so that positions,
 /// velocities and multipliers are of second order from the first step on (Arnold, Bruls, Cardona 2015, sect. 5).

@@ -101,7 +101,8 @@ void Corrections::apply_in_visit(int visit, State& state, const double* x, Move&
   NodeChange<G>* const changes = std::get<ChangesOn<G>>(changes_).data();
   order_->by_visit().for_each(walker_, visit, eight_grain,
                               [&](std::int64_t begin, std::int64_t end) { move(begin, end, changes); });
-  add_multipliers(state, x, 1.0, multipliers_by_visit_.begin(visit), multipliers_by_visit_.end(visit));
+  if (!multipliers_by_visit_.is_empty(visit))
+    add_multipliers(state, x, 1.0, multipliers_by_visit_.begin(visit), multipliers_by_visit_.end(visit));
   pairs_by_visit_.for_each(walker_, visit, pair_grain,
                            [this](std::int64_t begin, std::int64_t end) { measure_pairs<G>(begin, end); });
 }

@@ -105,7 +105,7 @@ class LinearSolution {
  private:
   std::string explain_singular(const solve::FactorStatus& status) const;
   bool may_skip_check();
-  std::optional<Trouble> judge(const solve::SolveReport& solution);
+  std::optional<Trouble> find_trouble(const solve::SolveReport& solution);
 
   /// Solutions from one check of the backward error to the next: on chains a check takes as long as the solution
   /// itself.

@@ -24,6 +24,7 @@ class VisitRanges {
 
   std::int64_t begin(int visit) const { return begin_[static_cast<std::size_t>(visit)]; }
   std::int64_t end(int visit) const { return begin(visit + 1); }
+  bool is_empty(int visit) const { return begin(visit) == end(visit); }
   std::int64_t count() const { return begin_.empty() ? 0 : begin_.back(); }
 
   /// Calls f(begin, end) for the items of a visit: at once, or in chunks of `grain` items on several threads where the
