@@ -45,13 +45,13 @@ class NewtonIteration {
   const elements::Slopes& slopes_;
   StepReport report_;
   bool may_reuse_;
-  double negligible_;          ///< remaining change of relative motions that is neglected
-  bool fresh_;                 ///< the next solution needs a new factorization
-  bool is_own_ = false;        ///< the present factorization was made in this step
-  int served_ = 0;             ///< solutions in this step with the present factorization
-  double previous_ = 0.0;      ///< size of the correction before the last
-  double size_ = 0.0;          ///< relative size of the residual (largest_share)
-  double expected_ = 0.0;      ///< prediction of size_ after the last correction
+  double negligible_;      ///< remaining change of relative motions that is neglected
+  bool fresh_;             ///< the next solution needs a new factorization
+  bool is_own_ = false;    ///< the present factorization was made in this step
+  int served_ = 0;         ///< solutions in this step with the present factorization
+  double previous_ = 0.0;  ///< size of the correction before the last
+  double size_ = 0.0;      ///< relative size of the residual (largest_share)
+  double expected_ = 0.0;  ///< prediction of size_ after the last correction
   /// Ratios of the last two corrections and of the last two residuals. The initial rate of a factorization from an
   /// earlier step is the one observed there; that of a new factorization is unknown (1).
   double rate_, shrunk_ = 0.0;

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "bough/motion/vectors_on.hpp"
+#include "bough/step/advance.hpp"
 #include "bough/step/residual_rate.hpp"
 #include "element_parts.hpp"
 #include "first_order.hpp"
