@@ -88,6 +88,14 @@ void Corrections::measure_pairs(std::int64_t begin, std::int64_t end) {
 BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
 #undef BOUGH_INSTANTIATE
 
+void Corrections::note_held(const State& state) {
+  const std::span<const NodeEight> held = order_->held_eights();
+  if (held.empty()) return;
+  state.visit([&]<class G>(const NodesOn<G>& nodes) {
+    note_changes(nodes, held, places_.increments(nullptr), std::get<ChangesOn<G>>(changes_).data());
+  });
+}
+
 double Corrections::applied_size() const {
   double most = 0.0;
   for (double size : pair_sizes_) most = std::max(most, size);

@@ -44,12 +44,15 @@ void CpuClock::charge(double* next) {
 
 PhaseTimer::PhaseTimer(CpuClock& clock, double& sum)
     : clock_(clock), outer_(clock.is_left_open_ ? nullptr : clock.charged_) {
-  clock.charge(&sum);
+  if (clock.charged_ == &sum)
+    clock.is_left_open_ = false;  // the phase goes on, so that the clock need not be read
+  else
+    clock.charge(&sum);
 }
 PhaseTimer::~PhaseTimer() {
   if (outer_ == nullptr && clock_.is_chained_)
     clock_.is_left_open_ = true;
-  else
+  else if (clock_.charged_ != outer_)
     clock_.charge(outer_);
 }
 

@@ -123,7 +123,6 @@ std::optional<Trouble> NewtonIteration::solve(solve::VisitWork correct) {
   if (auto t = system_.linear().substitute(system_.right_hand_side().data(), system_.work().x.data(), correct))
     return t;
   previous_ = report_.change;
-  const PhaseTimer timer{system_.clock(), system_.counts().update};
   report_.change = system_.corrections().applied_size();
   if (count() < StepReport::remembered_changes) report_.change_list[static_cast<std::size_t>(count())] = report_.change;
   ++report_.iterations;

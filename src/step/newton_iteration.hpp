@@ -68,6 +68,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
                    const elements::Slopes& slopes, const Correction& correction) {
   NewtonIteration newton(system, options, goal, slopes);
   const PhaseChain chain(system.clock());
+  system.corrections().note_held(state);
   const double* const x = system.work().x.data();
   auto correct = [&](int visit) { correction.apply_in_visit(visit, state, x); };
   for (;;) {
@@ -77,7 +78,6 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     if (const auto t = newton.renew_factor(state)) return newton.fail(*t);
     state.begin_change();
     if (const auto t = newton.solve(solve::make_visit_work(correct))) return newton.fail(*t);
-    const PhaseTimer timer{system.clock(), system.counts().update};
     if (const std::optional<Trouble> t = correction.complete(state, x)) return newton.fail(*t);
     if (newton.will_be_converged()) return newton.converge();
   }

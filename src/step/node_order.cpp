@@ -3,14 +3,14 @@
 namespace bough::step {
 
 NodeOrder::NodeOrder(const plan::Plan& plan, const solve::SolverVisits& visits) : places_(plan.nodes.size()) {
-  std::vector<std::vector<int>> nodes(static_cast<std::size_t>(visits.count()));
+  std::vector<std::vector<int>> nodes(static_cast<std::size_t>(visits.count() + 1));  // those without unknowns last
   for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
     const int block = plan.block_of_node[n];
-    nodes[static_cast<std::size_t>(block < 0 ? visits.count() - 1 : visits.of_block[static_cast<std::size_t>(block)])]
+    nodes[static_cast<std::size_t>(block < 0 ? visits.count() : visits.of_block[static_cast<std::size_t>(block)])]
         .push_back(static_cast<int>(n));
   }
   std::vector<int> of_eight;
-  for (int v = 0; v < visits.count(); ++v) {
+  for (int v = 0; v <= visits.count(); ++v) {
     const std::vector<int>& own = nodes[static_cast<std::size_t>(v)];
     for (std::size_t first = 0; first < own.size(); first += 8) {
       NodeEight eight;

@@ -66,6 +66,9 @@ class Corrections {
   /// Adds `factor` times the multipliers and signals of a solution.
   void add_multipliers(State& state, const double* x, double factor) const;
 
+  /// Notes where nodes without unknowns are, for the relative changes that apply_in_visit measures.
+  void note_held(const State& state);
+
   /// Predicts the multipliers at the end of the next step of generalized-alpha, by the polynomial of
   /// State::multiplier_order.
   void predict_multipliers(const State& start, State& state) const;

@@ -1,6 +1,7 @@
 #pragma once
 /// Nodes in groups of eight, by the visits of the solver's walks in which their unknowns are found.
 #include <array>
+#include <span>
 #include <vector>
 
 #include "bough/plan/plan.hpp"
@@ -21,8 +22,12 @@ class NodeOrder {
  public:
   NodeOrder(const plan::Plan& plan, const solve::SolverVisits& visits);
 
-  /// Visit after visit, within a visit in ascending order of nodes. Nodes without unknowns are in the last visit.
+  /// Visit after visit, then the nodes without unknowns; within each in ascending order of nodes.
   const std::vector<NodeEight>& eights() const { return eights_; }
+  /// The eights of nodes without unknowns, which no correction moves.
+  std::span<const NodeEight> held_eights() const {
+    return std::span(eights_).subspan(static_cast<std::size_t>(by_visit_.count()));
+  }
   const VisitRanges& by_visit() const { return by_visit_; }
   /// Where a node is: in lane `lane` of an eight, and in `copies` - 1 lanes behind it.
   struct Place {
