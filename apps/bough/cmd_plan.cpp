@@ -83,8 +83,7 @@ std::string plan_text(const run::Outlook& o) {
   if (e.unknowns != o.unknowns_in_space) text += " of " + std::to_string(o.unknowns_in_space);
   text += "; " + std::to_string(o.sub_domains) + " sub-domains, " + std::to_string(o.leaves) + " leaves, " +
           std::to_string(o.levels) + " levels (" + o.cut + "), " + std::to_string(o.fronts_in_lanes) + " of " +
-          std::to_string(o.fronts) + " fronts in lockstep" +
-          (o.fronts_in_registers > 0 ? ", " + std::to_string(o.fronts_in_registers) + " in registers" : "") + "\n";
+          std::to_string(o.fronts) + " fronts in lockstep\n";
   text += "a step, about " + seconds_text(e.step_seconds()) + " on one thread: elements " +
           seconds_text(e.evaluate_seconds) + ", factor " + seconds_text(e.factor_seconds) + " (" +
           rounded_text(e.factorizations, 2) + " of " + rounded_text(1e-6 * e.factor_flops, 3) + " Mflop), solve " +
@@ -162,7 +161,6 @@ std::string plan_json(const run::Outlook& o, const std::vector<io::Problem>& hin
   json.member("levels", static_cast<long long>(o.levels));
   json.member("fronts", static_cast<long long>(o.fronts));
   json.member("fronts_in_lanes", static_cast<long long>(o.fronts_in_lanes));
-  json.member("fronts_in_registers", static_cast<long long>(o.fronts_in_registers));
   json.member("steps", o.steps);
   json.member("process_bytes", static_cast<long long>(o.process_bytes));
   json.key("mobility");

@@ -96,7 +96,6 @@ Outlook look_ahead(const scene::Scene& scene) {
   out.effort = effort_of(built);
   const solve::SolverCounters counters = built.system.linear().solver().counters();
   out.fronts_in_lanes = static_cast<int>(counters.fronts_in_lanes);
-  out.fronts_in_registers = static_cast<int>(counters.fronts_in_registers);
   out.steps = estimate_run(scene).steps;
   out.process_bytes = program_bytes + out.effort.memory_bytes;
   out.mobility = plan.mobility;

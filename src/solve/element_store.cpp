@@ -61,7 +61,7 @@ void ElementStore::prepare() {
       offset += graph_.block_size[at(b)];
     }
   }
-  chunk_.assign(at(4 * (graph_.num_blocks() / chunk_blocks + 1)), 0.0);
+  chunk_.assign(at(3 * (graph_.num_blocks() / chunk_blocks + 1)), 0.0);
 }
 
 /// Calls row(global row, element, row of the element matrix) for all rows of blocks [begin, end), elements ascending.
@@ -98,12 +98,11 @@ ElementStore::Errors ElementStore::eval_residual(const tree::Walker& walker, con
                                                  const double* b, double* r) {
   std::fill(chunk_.begin(), chunk_.end(), 0.0);
   auto body = [&](std::int64_t begin, std::int64_t end) {
-    double* most = chunk_.data() + 4 * (begin / chunk_blocks);  // |r|, |A| |x| per row norm, |x| and |b|, componentwise
-    double* worst = most + 3;
+    double* most = chunk_.data() + 3 * (begin / chunk_blocks);  // |r|, row sum of |A|, |b|, scaled
     for (std::int64_t blk = begin; blk < end; ++blk) {
       for (int i = 0; i < graph_.block_size[at(blk)]; ++i) {
         const std::int64_t row = tree_.unknown_begin[at(blk)] + i;
-        double sum = b[row], magnitude = std::abs(b[row]), norm = 0.0;
+        double sum = b[row], norm = 0.0;
         for (std::int64_t t = touch_begin_[at(blk)]; t < touch_begin_[at(blk) + 1]; ++t) {
           const int e = touches_[at(t)].element;
           const auto a = view(e).from(static_cast<std::int64_t>(touches_[at(t)].offset + i) * size_of(e));
@@ -113,31 +112,26 @@ ElementStore::Errors ElementStore::eval_residual(const tree::Walker& walker, con
             const std::int64_t first = tree_.unknown_begin[at(other)];
             for (int j = 0; j < graph_.block_size[at(other)]; ++j) {
               const double entry = a[c++];
-              const double product = entry * x[first + j];
-              sum -= product;
-              magnitude += std::abs(product);
+              sum -= entry * x[first + j];
               norm += std::abs(entry) * scales.column[at(first + j)];
             }
           }
         }
         r[row] = sum;
         const double scale = scales.row[at(row)];
-        const double residual = std::abs(sum);
-        most[0] = larger(most[0], residual * scale);
+        most[0] = larger(most[0], std::abs(sum) * scale);
         most[1] = larger(most[1], norm * scale);
         most[2] = larger(most[2], std::abs(b[row]) * scale);
-        if (magnitude > 0.0) *worst = std::max(*worst, residual / magnitude);
       }
     }
   };
   walker.for_each_chunk(graph_.num_blocks(), chunk_blocks, tree::make_chunk(body));
   double residual = 0.0, norm = 0.0, rhs = 0.0, size = 0.0;
   Errors errors;
-  for (std::size_t c = 0; c + 3 < chunk_.size(); c += 4) {
+  for (std::size_t c = 0; c + 2 < chunk_.size(); c += 3) {
     residual = larger(residual, chunk_[c]);
     norm = larger(norm, chunk_[c + 1]);
     rhs = larger(rhs, chunk_[c + 2]);
-    errors.componentwise = std::max(errors.componentwise, chunk_[c + 3]);
   }
   for (std::size_t i = 0; i < scales.column.size(); ++i) size = larger(size, std::abs(x[i]) / scales.column[i]);
   errors.finite = std::isfinite(residual) && std::isfinite(size);
@@ -203,7 +197,7 @@ ElementStore::Sizes ElementStore::eval_sizes(const tree::Walker& walker, const S
   constexpr double least_of_own = 0.25;  // rounded to powers of two, a scaled diagonal is between 1/2 and 2
   std::fill(chunk_.begin(), chunk_.end(), 0.0);
   auto body = [&](std::int64_t begin, std::int64_t end) {
-    double* most = chunk_.data() + 4 * (begin / chunk_blocks);  // row sum; scaled diagonal, and its inverse
+    double* most = chunk_.data() + 3 * (begin / chunk_blocks);  // row sum; scaled diagonal, and its inverse
     for (std::int64_t b = begin; b < end; ++b)
       for (int i = 0; i < graph_.block_size[at(b)]; ++i) {
         const std::int64_t row = tree_.unknown_begin[at(b)] + i;
@@ -228,7 +222,7 @@ ElementStore::Sizes ElementStore::eval_sizes(const tree::Walker& walker, const S
   };
   walker.for_each_chunk(graph_.num_blocks(), chunk_blocks, tree::make_chunk(body));
   Sizes sizes;
-  for (std::size_t c = 0; c + 3 < chunk_.size(); c += 4) {
+  for (std::size_t c = 0; c + 2 < chunk_.size(); c += 3) {
     sizes.norm = larger(sizes.norm, chunk_[c]);
     sizes.drift = larger(sizes.drift, larger(chunk_[c + 1], chunk_[c + 2]));
   }

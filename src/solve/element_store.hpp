@@ -65,11 +65,11 @@ class ElementStore {
   void multiply(const tree::Walker& walker, const double* x, double* y) const;
 
   struct Errors {
-    double normwise = 0.0, componentwise = 0.0;
+    double normwise = 0.0;
     double size = 0.0;  ///< |A| |x| + |b|, the reference of the normwise error.
     bool finite = true;
   };
-  /// r = b - A x and the backward errors of x in scaled variables.
+  /// r = b - A x and the backward error of x in scaled variables.
   Errors eval_residual(const tree::Walker& walker, const Scales& scales, const double* x, const double* b, double* r);
 
   /// Serial, one pass over the element matrices. No allocation. scratch: num_unknowns numbers, overwritten.
@@ -116,7 +116,7 @@ class ElementStore {
   std::vector<double, LineAllocator<double>> values_;
   std::vector<std::int64_t> touch_begin_;  ///< by block
   std::vector<Touch> touches_;
-  std::vector<double> chunk_;  ///< partial maxima, four per chunk
+  std::vector<double> chunk_;  ///< partial maxima, three per chunk
 };
 
 }  // namespace bough::solve

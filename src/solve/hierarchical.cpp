@@ -41,7 +41,6 @@ void Hierarchical::State::lose_symmetry(const Asymmetry& found) {
   LanePlan general = make_lane_plan(elements.graph(), tree, options.lanes);
   general.batches = std::move(lanes.batches);  // equal contents; callers refer to the old ones
   lanes = std::move(general);
-  registers = make_register_plan(elements.graph(), tree, lanes, false);
   size_factors();
 }
 
@@ -104,7 +103,6 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, VisitWork before, 
     s.check_all_symmetric();
     if (s.is_symmetric()) s.scales.row = s.scales.column;  // equal except for the order of a sum
     s.lane_scales.set(s.lanes, s.tree, s.scales);
-    s.register_scales.set(s.registers, s.scales, s.options.tiny_pivot);
     std::fill(s.leaves_to_root.begin(), s.leaves_to_root.end(), char{0});
     std::fill(s.leaving_lanes.begin(), s.leaving_lanes.end(), LaneSet{0});
   }
@@ -128,12 +126,6 @@ FactorStatus Hierarchical::factor(const tree::Walker& walker, VisitWork before, 
   }
   ++s.counters.factorizations;
   for (tree::FrontId f : s.scalar_fronts) s.count_front(f);
-  for (std::size_t g = 0; g < s.left_registers.size(); ++g) {
-    if (s.left_registers[g] == 0) continue;
-    ++s.counters.registers_left;
-    for (int f = s.registers.groups[g].front_begin; f < s.registers.groups[g].front_end; ++f)
-      s.count_front(s.registers.fronts[at(f)].front);
-  }
   for (std::size_t i = 0; i < s.scalar_lanes.size(); ++i)
     for (int l = 0; s.scalar_lanes[i] != 0 && l < lanes_wide; ++l)
       if ((s.scalar_lanes[i] >> l & 1) != 0) {
@@ -283,8 +275,6 @@ SolveReport Hierarchical::State::check_solution(const tree::Walker& walker, Solv
   if (options.check == SolveCheck::none) return report;
   measure_matrices(walker);
   ElementStore::Errors errors = eval_residual(walker, given, report);
-  if (options.check == SolveCheck::componentwise)
-    errors = elements.eval_residual(walker, scales, x, given, residual.data());
   leave_out_zeros(errors, report);
   // Refined solutions are compared in the norm of the present matrix.
   if (errors.finite && errors.normwise > options.refinement_above) errors = eval_met_residual(walker, report);
@@ -304,7 +294,6 @@ SolveReport Hierarchical::State::check_solution(const tree::Walker& walker, Solv
     ++report.refinement_steps;
   }
   report.backward_error = errors.normwise;
-  report.componentwise_backward_error = errors.componentwise;
   report.finite = errors.finite;
   return report;
 }
@@ -318,14 +307,11 @@ SolverCounters Hierarchical::counters() const {
        {&s.scales.row, &s.scales.column, &s.scales.weight, &s.rhs, &s.residual, &s.correction})
     doubles += v->capacity();
   for (const Enlarged& e : s.enlarged) doubles += e.a.capacity() + e.vector.capacity();
-  doubles += s.register_vectors.size();
-  for (const LaneDoubles* pool :
-       {&s.lane_scratch, &s.lane_tops, &s.lane_factors, &s.lane_vectors, &s.register_factors, &s.register_schur})
+  for (const LaneDoubles* pool : {&s.lane_scratch, &s.lane_tops, &s.lane_factors, &s.lane_vectors})
     doubles += pool->size();
   c.memory_bytes = static_cast<std::int64_t>(doubles * sizeof(double) + s.index_pool.size() * sizeof(int)) +
-                   s.elements.memory_bytes() + s.lane_scales.memory_bytes() + s.register_scales.memory_bytes() +
-                   s.null_space.local_right.memory_bytes() + s.null_space.local_left.memory_bytes();
-  c.fronts_in_registers = static_cast<std::int64_t>(s.registers.fronts.size());
+                   s.elements.memory_bytes() + s.lane_scales.memory_bytes() + s.null_space.local_right.memory_bytes() +
+                   s.null_space.local_left.memory_bytes();
   for (const LaneFront& f : s.lanes.fronts)
     for (tree::FrontId id : f.front) c.fronts_in_lanes += id != tree::none ? 1 : 0;
   return c;

@@ -16,11 +16,8 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
       options(o),
       lanes(make_lane_plan(graph, t, o.lanes && o.elimination == Elimination::flat,
                            o.elimination == Elimination::flat ? o.symmetry : Symmetry::general)),
-      registers(
-          make_register_plan(graph, t, lanes, o.elimination == Elimination::flat && o.symmetry != Symmetry::general)),
       elements(graph, t, lanes.element_first, lanes.element_stride, lanes.num_values),
-      lane_scales(lanes),
-      register_scales(registers) {
+      lane_scales(lanes) {
   const std::size_t n = at(tree.num_unknowns()), num_fronts = at(tree.num_fronts());
   scales.row.assign(n, 1.0);
   scales.diagonal.assign(n, 0.0);
@@ -44,11 +41,8 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   run_begin.assign(1, 0);
   for (tree::FrontId id = 0; id < tree.num_fronts(); ++id) {
     const tree::Front& f = front(id);
-    const int in_registers = registers.front_of[at(id)];
-    const bool in_lanes = lanes.lane_front[at(id)] >= 0 || in_registers >= 0;
-    const bool has_vector =
-        lanes.lane_front[at(id)] < 0 && (in_registers < 0 || registers.fronts[at(in_registers)].is_exported);
-    const std::int64_t size = has_vector ? f.size() : 0;
+    const bool in_lanes = lanes.lane_front[at(id)] >= 0;
+    const std::int64_t size = in_lanes ? 0 : f.size();
     vector_begin.push_back(vector_begin.back() + vector_size(size));
     index_begin.push_back(index_begin.back() + (in_lanes ? 0 : 3 * f.num_eliminated));
     own_begin.push_back(own_begin.back() + f.num_eliminated);
@@ -57,10 +51,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
     run_begin.push_back(static_cast<std::int64_t>(runs.size()));
   }
   size_factors();
-  std::vector<int> has_place = lanes.lane_front;
-  for (const RegisterFront& f : registers.fronts)
-    if (!f.is_exported) has_place[at(f.front)] = 0;
-  schur_places = plan_schur(tree, has_place, keeps_all, is_symmetric());
+  schur_places = plan_schur(tree, lanes.lane_front, keeps_all, is_symmetric());
   schur_pool.resize(at(schur_places.pool));
   vector_pool.resize(at(vector_begin.back()));
   index_pool.resize(at(index_begin.back()));
@@ -70,7 +61,6 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
                    0.0);  // tops without unknowns also point into it
   scalar_lanes.assign(lanes.fronts.size(), 0);
   leaving_lanes.assign(lanes.fronts.size(), 0);
-  left_registers.assign(lanes.groups.size(), 0);
   leaves_to_root.assign(num_fronts, 0);
   sizes.resize(lanes.groups.size());
   asymmetries.resize(lanes.groups.size());
@@ -91,17 +81,13 @@ void Hierarchical::State::size_factors() {
     const tree::Front& f = front(id);
     const bool in_lanes = lanes.lane_front[at(id)] >= 0;
     const FrontShape shape(f.size(), f.num_eliminated, is_symmetric());
-    factor_begin.push_back(factor_begin.back() +
-                           (in_lanes || registers.front_of[at(id)] >= 0 ? 0 : shape.factor_size()));
+    factor_begin.push_back(factor_begin.back() + (in_lanes ? 0 : shape.factor_size()));
     const double flops = is_symmetric() ? 0.5 * f.flops : f.flops;
     counters.factor_flops += flops;
     if (in_lanes) counters.flops_in_lanes += flops;
   }
   factor_pool.resize(at(factor_begin.back()));
   lane_factors.assign(at(lanes.factor_size * lanes_wide), 0.0);
-  register_factors.assign(at(registers.factor_size), 0.0);
-  register_schur.assign(at(registers.schur_size), 0.0);
-  register_vectors.assign(at(registers.vector_size), 0.0);
   std::int64_t scratch = 0;
   for (const LaneGroup& group : lanes.groups)
     if (group.scratch * lanes_wide > room_of_scratch) scratch += group.scratch * lanes_wide;
@@ -112,7 +98,7 @@ void Hierarchical::State::size_factors() {
       group_scratch[g] = lane_scratch.data() + (scratch -= lanes.groups[g].scratch * lanes_wide);
   constexpr std::size_t second_cache = std::size_t{2} << 20;
   reads_factors_ahead = sizeof(double) * lane_factors.size() > second_cache;
-  const std::size_t bytes = sizeof(double) * (lane_factors.size() + register_factors.size() + at(lanes.num_values));
+  const std::size_t bytes = sizeof(double) * (lane_factors.size() + at(lanes.num_values));
   exceeds_caches = options.near_bytes > 0 ? bytes > at(options.near_bytes) : exceeds_share_of_caches(bytes);
 }
 

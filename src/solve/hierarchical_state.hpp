@@ -15,9 +15,6 @@
 #include "lane_plan.hpp"
 #include "lane_scales.hpp"
 #include "null_vectors.hpp"
-#include "register_kernels.hpp"
-#include "register_plan.hpp"
-#include "register_scales.hpp"
 #include "transfers.hpp"
 
 namespace bough::solve {
@@ -30,7 +27,7 @@ struct Run {
 };
 
 /// Data of one front. All pointers refer to the pools of State, except for fronts with delayed pivots, and for fronts
-/// that left lanes or registers.
+/// that left lanes.
 struct FrontData {
   double* a = nullptr;  ///< the parts of FrontMatrix
   double* u = nullptr;
@@ -127,7 +124,6 @@ struct Hierarchical::State {
   const tree::Tree& tree;
   SolveOptions options;
   LanePlan lanes;
-  RegisterPlan registers;
   ElementStore elements;
   Scales scales;
   bool scales_wanted = true;
@@ -147,7 +143,7 @@ struct Hierarchical::State {
   std::vector<int> index_pool;
   std::vector<int> own_unknowns;  ///< eliminated unknowns of every front (pool)
   std::vector<Run> runs;
-  std::vector<tree::FrontId> scalar_fronts;   ///< fronts that are never in lanes or registers
+  std::vector<tree::FrontId> scalar_fronts;   ///< fronts that are never in lanes
   std::vector<AugmentedInterface> augmented;  ///< by sub-domain; empty unless elimination is augmented
   NullSpace null_space;
   std::vector<char> leaves_to_root;  ///< by front: its rows turned out not to be dependent, in the present scales
@@ -167,13 +163,8 @@ struct Hierarchical::State {
   std::vector<double*> group_scratch;
   std::vector<LaneSet> leaving_lanes;  ///< by front of LanePlan: left in the last factorization for dependent rows
   std::vector<LaneSet> scalar_lanes;  ///< by front of LanePlan: lanes that needed the scalar path in this factorization
-  // Leaves without equals, with their small fronts in registers.
-  RegisterScaleStore register_scales;
-  LaneDoubles register_factors, register_schur;
-  std::vector<double> register_vectors;  ///< of eliminated unknowns, after forward substitution
-  std::vector<char> left_registers;      ///< by group: in this factorization all its fronts were factored with pivoting
-  std::vector<SolutionSizes> sizes;      ///< by group
-  std::mutex reporting;                  ///< held while the twin is made
+  std::vector<SolutionSizes> sizes;   ///< by group
+  std::mutex reporting;               ///< held while the twin is made
   std::unique_ptr<Hierarchical> twin;    ///< a solver without lanes, for reports that need all Schur complements
   std::int64_t twin_factorization = -1;  ///< number of the factorization that it has
   /// Matrices and factors do not stay in the caches between walks: they are prefetched, and written past the caches.
@@ -216,18 +207,6 @@ struct Hierarchical::State {
   void backward_lane_front(int index);
   void backward_left_lane_front(int index, std::vector<double>& left);
   void residual_lane_front(int index, SolutionSizes& most);
-
-  // register_walks.cpp
-  bool stands_in_registers(int group) const {
-    return lanes.groups[static_cast<std::size_t>(group)].in_registers &&
-           left_registers[static_cast<std::size_t>(group)] == 0;
-  }
-  bool factor_registers(int group, const double* b);
-  void gather_register_rhs(const RegisterFront& f, const double* b, double* t) const;
-  void export_schur(const RegisterFront& f, const double* schur, bool with_vector);
-  void forward_registers(int group);
-  void backward_registers(int group);
-  void backward_left_registers(int group, std::vector<double>& left) const;
 
   // lane_handover.cpp
   LaneSet lanes_to_leave(const LaneFront& f) const;

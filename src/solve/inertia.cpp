@@ -106,14 +106,6 @@ Inertia Hierarchical::inertia() {
   }
   for (tree::FrontId id = 0; id < s.tree.num_fronts(); ++id) {
     if (!s.is_scalar(id)) continue;
-    if (const int index = s.registers.front_of[at(id)]; index >= 0) {
-      const RegisterFront& f = s.registers.fronts[at(index)];
-      if (s.stands_in_registers(f.group)) {
-        const double* factor = s.register_factors.data() + f.factor;
-        for (int k = 0; k < f.eliminated; ++k) signs.add(factor[k * (f.size() + 1)]);
-        continue;
-      }
-    }
     const FrontData& d = s.data(id);
     PivotSigns& own = id + 1 == s.tree.num_fronts() ? of_root : signs;
     if (d.is_symmetric()) {

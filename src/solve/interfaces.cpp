@@ -190,32 +190,4 @@ std::vector<InterfaceReport> Hierarchical::interfaces(int widest) const {
   return reports;
 }
 
-std::vector<double> Hierarchical::local_multipliers(tree::SubdomainId s, const double* rhs) const {
-  State& state = *reporting_solver().state_;
-  std::vector<double> solution(state.residual.size());
-  state.take(rhs, solution.data(), false);
-  state.solve_into_x(serial_walker(), rhs);
-  const FrontData& d = state.data(state.tree.subdomains[at(s)].top());
-  const tree::Front& top = state.front(state.tree.subdomains[at(s)].top());
-  const int n = d.size - d.full;
-  Eigen::VectorXd x(d.size - d.pivots);  // unknowns without a pivot, then the boundary
-  for (int i = d.pivots; i < d.full; ++i)
-    x(i - d.pivots) = solution[at(d.columns[i])] / state.scales.column[at(d.columns[i])];
-  std::vector<std::size_t> unknowns;
-  for (int b : state.tree.boundary_blocks(top))
-    for (std::int64_t u = state.tree.unknown_begin[at(b)]; u < state.tree.unknown_begin[at(b) + 1]; ++u)
-      unknowns.push_back(at(u));
-  for (int i = 0; i < n; ++i)
-    x(d.full - d.pivots + i) = solution[unknowns[at(i)]] / state.scales.column[unknowns[at(i)]];
-  Matrix S(n, d.size - d.pivots);
-  S.leftCols(d.full - d.pivots) = ConstMap(d.a + d.full + static_cast<std::ptrdiff_t>(d.pivots) * d.lda, n,
-                                           d.full - d.pivots, Eigen::OuterStride<>(d.lda));
-  S.rightCols(n) = ConstMap(d.s, n, n, Eigen::OuterStride<>(d.lds));
-  const Eigen::VectorXd l =
-      (Eigen::Map<const Eigen::VectorXd>(d.vector + d.full, n) - S * x) / state.options.multiplier_scale;
-  std::vector<double> multipliers(at(n));
-  for (int i = 0; i < n; ++i) multipliers[at(i)] = l(i) / state.scales.row[unknowns[at(i)]];
-  return multipliers;
-}
-
 }  // namespace bough::solve

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "lane_planner.hpp"
-#include "register_plan.hpp"
 
 namespace bough::solve {
 
@@ -110,8 +109,7 @@ void LanePlanner::fill_packs(Classes& classes) const {
 
 int LanePlanner::form(std::vector<tree::SubdomainId> subdomains, bool below_lanes, int level) {
   const tree::SubdomainId first = subdomains.front();
-  const bool in_registers = goes_in_registers(subdomains, below_lanes);
-  const bool in_lanes = use_lanes_ && first != tree_.root() && !in_registers &&
+  const bool in_lanes = use_lanes_ && first != tree_.root() &&
                         (below_lanes || subdomains.size() > 1 || largest_[at(first)] <= largest_alone);
   Classes classes;
   const std::size_t num_children = tree_.children(subdomain(first)).size();
@@ -121,22 +119,12 @@ int LanePlanner::form(std::vector<tree::SubdomainId> subdomains, bool below_lane
   std::vector<int> children;
   for (const auto& members : classes)
     for (std::size_t i = 0, end = 0; i < members.size(); i = end) {
-      // Two leaves are faster one by one, on two threads.
-      end = members.size() == 2 && goes_in_registers({members.front()}, in_lanes) &&
-                    goes_in_registers({members.back()}, in_lanes)
-                ? i + 1
-                : std::min(members.size(), i + lanes_wide);
+      end = std::min(members.size(), i + lanes_wide);
       children.push_back(
           form({members.begin() + static_cast<std::ptrdiff_t>(i), members.begin() + static_cast<std::ptrdiff_t>(end)},
                in_lanes, level + 1));
     }
-  const int id = close(std::move(subdomains), in_lanes, children);
-  plan_.groups.back().in_registers = in_registers;
-  return id;
-}
-
-bool LanePlanner::goes_in_registers(const std::vector<tree::SubdomainId>& subdomains, bool below_lanes) const {
-  return use_lanes_ && !below_lanes && subdomains.size() == 1 && fits_registers(tree_, subdomains.front());
+  return close(std::move(subdomains), in_lanes, children);
 }
 
 void LanePlanner::place_child(tree::SubdomainId s, Classes& classes) const {

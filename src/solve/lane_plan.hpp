@@ -89,11 +89,10 @@ struct LaneFront {
   }
 };
 
-/// Sub-domains visited together: several in lockstep, or a single one in registers or on the scalar path.
+/// Sub-domains visited together: several in lockstep, or a single one, in lanes or on the scalar path.
 struct LaneGroup {
   std::vector<tree::SubdomainId> subdomains;
   bool in_lanes = false;
-  bool in_registers = false;  ///< a leaf without equals, whose small fronts are eliminated in registers (RegisterPlan)
   int front_begin = 0, front_end = 0;      ///< LanePlan::fronts, children first; in lanes only
   int element_begin = 0, element_end = 0;  ///< positions in LanePlan::batches
   std::int64_t scratch = 0;  ///< packs of Schur complements and vectors that are needed only during the visit

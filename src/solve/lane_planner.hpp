@@ -38,8 +38,6 @@ class LanePlanner {
   bool fits(tree::SubdomainId a, tree::SubdomainId b) const;
   /// Makes the group of these sub-domains and, before it, the groups below. `in_lanes`: the parent's group is.
   int form(std::vector<tree::SubdomainId> subdomains, bool below_lanes, int level);
-  /// Whether a group is a leaf whose fronts are eliminated in registers.
-  bool goes_in_registers(const std::vector<tree::SubdomainId>& subdomains, bool below_lanes) const;
   using Classes = std::vector<std::vector<tree::SubdomainId>>;  ///< sub-domains that can share groups
   void place_child(tree::SubdomainId s, Classes& classes) const;
   void fill_packs(Classes& classes) const;

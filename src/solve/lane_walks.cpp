@@ -20,21 +20,8 @@ void Hierarchical::State::factor_group(int index, const VisitWork& before) {
   if (group.in_lanes) return with_scratch(index, [&] { factor_lanes(index); });
   for (int b = group.element_begin; compares_triangles() && b < group.element_end; ++b)
     check_element_symmetric(index, lanes.batches[at(b)].element[0]);
-  const bool is_root = group.subdomains.front() == tree.root();
-  if (group.in_registers) {
-    const bool stands = factor_registers(index, is_root ? nullptr : visit_rhs);
-    left_registers[at(index)] = stands ? 0 : 1;
-    const RegisterGroup& own = registers.groups[at(index)];
-    for (int k = own.front_begin; stands && k < own.front_end; ++k) {  // what earlier factorizations may have found
-      FrontData& d = data(registers.fronts[at(k)].front);
-      d.dependent = 0;
-      d.full = d.pivots;
-    }
-    if (stands && is_root) factor_front(tree.num_fronts() - 1);
-    if (stands) return;
-  }
   factor_subdomain(group.subdomains.front());
-  if (visit_rhs == nullptr || is_root) return;
+  if (visit_rhs == nullptr || group.subdomains.front() == tree.root()) return;
   forward_group(index);
   mark(tree::Stage::forward);
 }
@@ -134,11 +121,6 @@ void Hierarchical::State::forward_group(int index) {
       }
     });
   const tree::SubdomainId s = group.subdomains.front();
-  if (stands_in_registers(index)) {
-    forward_registers(index);
-    if (s == tree.root()) forward_front(tree.num_fronts() - 1);
-    return;
-  }
   for (tree::FrontId f = tree.subdomains[at(s)].front_begin; f < tree.subdomains[at(s)].front_end; ++f)
     forward_front(f);
   if (options.elimination == Elimination::augmented && s != tree.root()) correct_forward(s);
@@ -150,10 +132,6 @@ void Hierarchical::State::backward_group(int index) {
     return with_scratch(index, [&] {
       for (int f = group.front_end; f-- > group.front_begin;) backward_lane_front(f);
     });
-  if (stands_in_registers(index)) {
-    if (group.subdomains.front() == tree.root()) backward_front(tree.num_fronts() - 1);
-    return backward_registers(index);
-  }
   const tree::Subdomain& s = tree.subdomains[at(group.subdomains.front())];
   for (tree::FrontId f = s.front_end; f-- > s.front_begin;) {
     backward_front(f);

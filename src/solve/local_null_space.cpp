@@ -151,7 +151,6 @@ void Hierarchical::State::substitute_null_vectors(tree::FrontId f, int count, Nu
       row[v] = value;
     }
   };
-  const int in_registers = registers.front_of[at(f)];
   if (!is_scalar(f)) {
     const int index = lanes.lane_front[at(f)], lane = lanes.lane[at(f)];
     const LaneFront& packed = lanes.fronts[at(index)];
@@ -165,27 +164,6 @@ void Hierarchical::State::substitute_null_vectors(tree::FrontId f, int count, Nu
     for (int k = 0; k < packed.eliminated; ++k) {
       const int u = lanes.unknowns[at(packed.unknown + k * wide + lane)];
       if (u >= 0) put(at(u), 1.0, z + k * wide + lane, step);
-    }
-    return;
-  }
-  if (in_registers >= 0 && stands_in_registers(registers.fronts[at(in_registers)].group)) {
-    const RegisterFront& own = registers.fronts[at(in_registers)];
-    const double* factor = register_factors.data() + own.factor;
-    const std::size_t step = largest_in_registers;
-    s.values.assign(step * at(count), 0.0);
-    double* z = s.values.data();
-    for_boundary(f, [&](int i, std::size_t u) { take(u, 1.0, z + own.eliminated + i, step); });
-    const double zero[largest_in_registers] = {};
-    for (std::size_t v = 0; v < at(count); ++v) {
-      double* one = z + v * step;
-      if (is_right)
-        backward_in_registers(factor, own.size(), own.eliminated, zero, one + own.eliminated, one);
-      else
-        backward_left_in_registers(factor, own.size(), own.eliminated, is_symmetric(), one);
-    }
-    for (int r = own.own_begin; r < own.own_end; ++r) {
-      const UnknownRun& run = registers.unknown_runs[at(r)];
-      for (int i = 0; i < run.length; ++i) put(at(run.unknown + i), 1.0, z + run.row + i, step);
     }
     return;
   }

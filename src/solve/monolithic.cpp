@@ -302,7 +302,6 @@ SolveReport Monolithic::solve(const tree::Walker& walker, const double* rhs, dou
       }
     }
     report.backward_error = errors.normwise;
-    report.componentwise_backward_error = errors.componentwise;
     report.finite = errors.finite;
     if (s.regularised && errors.normwise > 1e-8) report.inconsistency = errors.normwise;
   }

@@ -79,7 +79,6 @@ void Hierarchical::State::eval_null_candidates() {
       x[u] = i == v ? scales.column[u] : 0.0;
     }
     std::fill(lane_vectors.begin(), lane_vectors.end(), 0.0);
-    std::fill(register_vectors.begin(), register_vectors.end(), 0.0);
     for (auto g = static_cast<int>(lanes.groups.size()); g-- > 0;) backward_group(g);
     double* right = null_space.right.data() + at(v) * n;
     for (std::size_t i = 0; i < n; ++i) right[i] = x[i] / scales.column[i];
@@ -101,11 +100,6 @@ void Hierarchical::State::eval_null_candidates() {
         continue;
       }
       const tree::Subdomain& s = tree.subdomains[at(group.subdomains.front())];
-      if (stands_in_registers(g)) {
-        if (group.subdomains.front() == tree.root()) backward_left_front(tree.num_fronts() - 1, left);
-        backward_left_registers(g, left);
-        continue;
-      }
       for (tree::FrontId f = s.front_end; f-- > s.front_begin;) backward_left_front(f, left);
     }
     double* scaled = null_space.left.data() + at(v) * n;

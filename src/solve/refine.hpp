@@ -36,7 +36,7 @@ struct RefineBuffers {
 };
 
 /// x = A^-1 rhs by apply(scaled right-hand side, scaled solution), then at most `most` steps of refinement while they
-/// reduce the error and the normwise backward error is above refinement_above. Fills the report's backward errors,
+/// reduce the error and the normwise backward error is above refinement_above. Fills the report's backward error,
 /// steps, growth.
 template <class Apply>
 void solve_and_refine(const tree::Walker& walker, ElementStore& elements, const Scales& scales,
@@ -74,7 +74,6 @@ void solve_and_refine(const tree::Walker& walker, ElementStore& elements, const 
       ++report.refinement_steps;
     }
     report.backward_error = errors.normwise;
-    report.componentwise_backward_error = errors.componentwise;
     report.finite = errors.finite;
   }
   std::copy(w.x.begin(), w.x.end(), x);

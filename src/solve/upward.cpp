@@ -40,7 +40,7 @@ void Hierarchical::State::size_front(tree::FrontId f) {
   d.size = d.delayed_in + shape.size();
   d.pivots = d.dependent = 0;
   const bool is_symmetric = this->is_symmetric();
-  if (d.delayed_in == 0 && lanes.lane_front[at(f)] < 0 && registers.front_of[at(f)] < 0) {
+  if (d.delayed_in == 0 && lanes.lane_front[at(f)] < 0) {
     d.vector = vector_pool.data() + vector_begin[at(f)];
     d.rows = index_pool.data() + index_begin[at(f)];
     d.set_parts(FrontShape(d.size, d.full, is_symmetric), factor_pool.data() + factor_begin[at(f)], schur_place(f));

@@ -57,11 +57,6 @@ VisitShapes make_visit_shapes(const blocks::BlockGraph& graph, const tree::Tree&
       for (tree::FrontId f = s.front_begin; f < s.front_end; ++f) {
         const tree::Front& front = tree.fronts[at(f)];
         add_front(shape, front.num_eliminated, front.num_boundary);
-        if (group.in_registers && f + 1 < tree.num_fronts()) {
-          const std::int64_t e = front.num_eliminated, b = symmetry == Symmetry::general ? front.num_boundary : 0;
-          shape.factor_bytes += e * (front.size() + b) * static_cast<std::int64_t>(sizeof(double));
-          continue;
-        }
         shape.factor_bytes +=
             FrontShape(front.size(), front.num_eliminated, symmetry != Symmetry::general).factor_size() *
             static_cast<std::int64_t>(sizeof(double));

@@ -28,15 +28,12 @@ template <int N>
 constexpr double node_part<motion::Translations<N>> = 0.16;
 constexpr double per_sum = 20e-9;   ///< gathering, summing and measuring residuals, per element and evaluation [s]
 constexpr double per_node = 90e-9;  ///< moving a node with its velocity and acceleration, per iteration [s]
-// Fronts in registers, as in swept chains: 0.10 us in addition to their flops and 0.03 us per solution, on a machine
-// half as fast again.
 constexpr double per_front_lanes = 1.6e-7, per_flop_lanes = 2.5e-11;
-constexpr double per_front = 1.7e-6, per_front_registers = 1.6e-7, per_flop = 4.8e-11;
+constexpr double per_front = 1.7e-6, per_flop = 4.8e-11;
 constexpr double per_flop_of_others = 1.1e-9;  ///< time per flop of monolithic solvers
 // Time of a solution [s]: per front eliminated alone, and per byte of factors and element matrices, which come from
 // memory if they do not fit into the caches.
-constexpr double per_front_solved = 1.5e-7, per_front_solved_registers = 4e-8, per_byte_near = 1.1e-11,
-                 per_byte_far = 5e-11;
+constexpr double per_front_solved = 1.5e-7, per_byte_near = 1.1e-11, per_byte_far = 5e-11;
 constexpr double bytes_near = 16e6;
 // Per dependent row, from N windows of four-bars in space, N = 40 to 160: the front in which its loop closes is
 // factored with pivoting, and its null vectors are computed; least multipliers and consistent right-hand sides.
@@ -89,21 +86,19 @@ StepCost estimate_on(const System& system) {
   add_elements<G>(plan, cost);
   const solve::SolverCounters counters = system.linear().solver().counters();
   const auto bytes = static_cast<double>(counters.memory_bytes);
-  double alone = 0.0, in_registers = 0.0;  // fronts
-  double dependent = 0.0;                  // rows
+  double alone = 0.0;      // fronts
+  double dependent = 0.0;  // rows
   if (system.linear().solver().hierarchical() != nullptr) {
     const auto in_lanes = static_cast<double>(counters.fronts_in_lanes);
     dependent = expected_dependent_rows<G>(plan);
-    in_registers = static_cast<double>(counters.fronts_in_registers);
-    alone = system.linear().tree().num_fronts() - in_lanes - in_registers;
-    cost.factor = in_lanes * per_front_lanes + in_registers * per_front_registers + alone * per_front +
-                  counters.flops_in_lanes * per_flop_lanes +
+    alone = system.linear().tree().num_fronts() - in_lanes;
+    cost.factor = in_lanes * per_front_lanes + alone * per_front + counters.flops_in_lanes * per_flop_lanes +
                   (counters.factor_flops - counters.flops_in_lanes) * per_flop + dependent * per_dependent_row;
   } else {
     cost.factor = system.linear().tree().subdomains.back().subtree_flops * per_flop_of_others;
   }
-  cost.solve = alone * per_front_solved + in_registers * per_front_solved_registers +
-               bytes * (bytes < bytes_near ? per_byte_near : per_byte_far) + dependent * per_dependent_row_solved;
+  cost.solve = alone * per_front_solved + bytes * (bytes < bytes_near ? per_byte_near : per_byte_far) +
+               dependent * per_dependent_row_solved;
   cost.update = static_cast<double>(plan.nodes.size()) * per_node * (plan.is_dynamic ? node_part<G> : 1.0);
   return cost;
 }

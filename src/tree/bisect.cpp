@@ -109,22 +109,6 @@ bool Bisector::is_forest(const std::vector<int>& elements) {
   return edges < vertices - pieces.count + 0.5;
 }
 
-bool Bisector::is_path(const std::vector<int>& elements) {
-  if (!is_forest(elements) || find_pieces(elements).count != 1) return false;
-  std::vector<int> neighbours(static_cast<std::size_t>(adjacency_.graph->num_blocks()), 0);
-  for (int e : elements) {
-    int motion[2] = {-1, -1}, count = 0;
-    for (int b : adjacency_.blocks_of(e)) {
-      if (!adjacency_.is_motion(b)) continue;
-      if (count == 2) return false;
-      motion[count++] = b;
-    }
-    for (int k = 0; count == 2 && k < 2; ++k)
-      if (++neighbours[at(motion[k])] > 2) return false;
-  }
-  return true;
-}
-
 int Bisector::centroid_block(const std::vector<int>& elements, const Pieces& pieces, int piece) {
   // Weight below every vertex of the tree (elements weigh, blocks do not), rooted at the piece's first element; then
   // for every block the heaviest part that its removal leaves.

@@ -21,10 +21,6 @@ class Bisector {
   /// not needed.
   bool is_forest(const std::vector<int>& elements);
 
-  /// True if the set is one chain: every element joins at most two motion blocks, every block at most two others, and
-  /// no loop is closed.
-  bool is_path(const std::vector<int>& elements);
-
   /// Divides a set of at least two elements into two non-empty sides. Unconnected pieces are distributed over the
   /// sides, the largest first. If one piece holds more than two thirds of the weight, it is split first: a tree at one
   /// block (its centroid), any other graph at the vertex separator of least predicted cost among several.

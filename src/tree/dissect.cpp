@@ -27,16 +27,12 @@ std::size_t choose_leaf_size(const Adjacency& adjacency, const std::vector<int>&
 
 class Recursion {
  public:
-  Recursion(const Adjacency& adjacency, const std::vector<int>& elements, const TreeOptions& options, bool sweeps_paths)
+  Recursion(const Adjacency& adjacency, const std::vector<int>& elements, const TreeOptions& options)
       : bisector_(adjacency, options.seed), depth_(options.depth) {
     if (options.leaf_size > 0) {
       leaf_size_ = static_cast<std::size_t>(options.leaf_size);
     } else {
       leaf_size_ = options.depth >= 0 ? 1 : choose_leaf_size(adjacency, elements, options);
-      if (options.depth < 0 && sweeps_paths && elements.size() > leaf_size_ && bisector_.is_path(elements)) {
-        dissection.is_path = true;
-        depth_ = 1;
-      }
     }
   }
 
@@ -73,11 +69,11 @@ class Recursion {
 
 }  // namespace
 
-Dissection dissect(const Adjacency& adjacency, const TreeOptions& options, bool sweeps_paths) {
+Dissection dissect(const Adjacency& adjacency, const TreeOptions& options) {
   std::vector<int> all;
   for (int e = 0; e < adjacency.graph->num_elements(); ++e)
     if (!adjacency.blocks_of(e).empty()) all.push_back(e);
-  Recursion recursion(adjacency, all, options, sweeps_paths);
+  Recursion recursion(adjacency, all, options);
   recursion.run(std::move(all), 0, true);
 #ifdef BOUGH_HAS_METIS
   const char* general = "vertex separators (METIS)";

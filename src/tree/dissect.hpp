@@ -20,12 +20,10 @@ struct Part {
 };
 
 struct Dissection {
-  bool is_path = false;  ///< a chain that is cut once; its halves are swept from their free ends
   std::vector<Part> parts;
   std::string method;
 };
 
-/// sweeps_paths: if sizes are not given, a chain is cut once, into two halves that are swept.
-Dissection dissect(const Adjacency& adjacency, const TreeOptions& options, bool sweeps_paths);
+Dissection dissect(const Adjacency& adjacency, const TreeOptions& options);
 
 }  // namespace bough::tree

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -39,11 +38,11 @@ void require_consistent(const blocks::BlockGraph& graph) {
 /// Makes the tree from the dissection: eliminates part by part, then numbers the fronts and lays them out.
 class Builder {
  public:
-  Builder(const blocks::BlockGraph& graph, const TreeOptions& options, bool sweeps_paths)
+  Builder(const blocks::BlockGraph& graph, const TreeOptions& options)
       : graph_(graph),
         in_lockstep_(options.in_lockstep),
         adjacency_(graph),
-        dissection_(dissect(adjacency_, options, sweeps_paths)),
+        dissection_(dissect(adjacency_, options)),
         quotient_(adjacency_) {}
 
   Tree run() {
@@ -57,8 +56,6 @@ class Builder {
     tree_.method = dissection_.method;
     return std::move(tree_);
   }
-
-  bool is_path() const { return dissection_.is_path; }
 
  private:
   /// The part of a block is the lowest one that holds all its elements.
@@ -204,12 +201,8 @@ class Builder {
     // others.
     const std::vector<int>& boundary = quotient_.groups.back().boundary;
     const int missing = is_swept_[at(part)] != 0 && boundary.size() == 1 ? adjacency_.size_of(boundary[0]) : 0;
-    constexpr double visit_in_registers = 300.0;
-    const double visit = dissection_.is_path                                     ? visit_in_registers
-                         : in_lockstep_ && dissection_.parts[at(part)].is_forest ? visit_in_lockstep
-                                                                                 : visit_alone;
-    amalgamate(quotient_.groups, first, adjacency_, visit, missing,
-               dissection_.is_path ? largest_swept_front : std::numeric_limits<int>::max());
+    const bool in_lockstep = in_lockstep_ && dissection_.parts[at(part)].is_forest;
+    amalgamate(quotient_.groups, first, adjacency_, in_lockstep ? visit_in_lockstep : visit_alone, missing);
     close(part, {}, first);
   }
 
@@ -411,26 +404,10 @@ std::vector<std::string> problems_in(const TreeOptions& options) {
   return problems;
 }
 
-namespace {
-
-/// Whether the fronts of all leaves can be swept in registers.
-bool is_narrow(const Tree& tree) {
-  return std::all_of(tree.fronts.begin(), tree.fronts.end(), [&](const Front& f) {
-    return !tree.subdomains[at(f.subdomain)].is_leaf() || f.size() <= largest_swept_front;
-  });
-}
-
-}  // namespace
-
 Tree make_tree(const blocks::BlockGraph& graph, const TreeOptions& options) {
   require(problems_in(options).empty(), "options are valid");
   require_consistent(graph);
-  if (options.for_one_solution) {
-    Builder sweeping(graph, options, true);
-    Tree tree = sweeping.run();
-    if (!sweeping.is_path() || is_narrow(tree)) return tree;
-  }
-  return Builder(graph, options, false).run();
+  return Builder(graph, options).run();
 }
 
 }  // namespace bough::tree

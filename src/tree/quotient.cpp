@@ -166,8 +166,7 @@ double elimination_flops(int e, int b) {
   return sums(e + b - 1.0) - (b > 0 ? sums(b - 1.0) : 0.0);
 }
 
-void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency, double visit_flops, int missing,
-                int largest) {
+void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency, double visit_flops, int missing) {
   const auto unknowns = [&](const std::vector<int>& list) {
     int n = 0;
     for (int b : list) n += adjacency.size_of(b);
@@ -186,7 +185,7 @@ void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacenc
       if (gone == 0) continue;
       const double apart =
           elimination_flops(gone, unknowns(child.boundary) + missing) + elimination_flops(own, boundary);
-      if (gone + own + boundary > largest || elimination_flops(gone + own, boundary) > apart + visit_flops) continue;
+      if (elimination_flops(gone + own, boundary) > apart + visit_flops) continue;
       parent.eliminated.insert(parent.eliminated.begin(), child.eliminated.begin(), child.eliminated.end());
       parent.elements.insert(parent.elements.begin(), child.elements.begin(), child.elements.end());
       std::erase(parent.children, c);

@@ -70,8 +70,7 @@ double elimination_flops(int e, int b);
 
 /// Merges groups [first, end) of one leaf into their parents where the merger causes no fill, or where the fill is
 /// cheaper than visiting one more front [flop]. missing: number of unknowns by which the counted boundaries are too
-/// small. largest: limit of the unknowns of a front, including the missing ones.
-void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency, double visit_flops, int missing,
-                int largest);
+/// small.
+void amalgamate(std::vector<Group>& groups, int first, const Adjacency& adjacency, double visit_flops, int missing);
 
 }  // namespace bough::tree

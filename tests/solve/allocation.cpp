@@ -46,8 +46,7 @@ TEST(Allocation, NothingAllocatesAfterTheFirstFactorAndSolve) {
   }
   cases.emplace_back(make_loops({.columns = 20, .long_bar = true}), solve::Symmetry::general);  // dependent rows
   for (const auto& [scene, symmetry] : cases) {
-    for (const tree::TreeOptions& cut :
-         {tree::TreeOptions{.leaf_size = 3}, tree::TreeOptions{.for_one_solution = true}}) {
+    for (const tree::TreeOptions& cut : {tree::TreeOptions{.leaf_size = 3}, tree::TreeOptions{}}) {
       Solved s(scene, cut, {.symmetry = symmetry});
       const Eigen::VectorXd b = Eigen::VectorXd::Ones(scene.num_unknowns());
       Eigen::VectorXd x(b.size());

@@ -177,8 +177,7 @@ TEST(LoopRows, AJointThatIsAlignedAndNotAgainChangesTheRank) {
   LoopOptions off = options;
   off.misaligned = 0.1;
   const Scene aligned = make_loops(options), misaligned = make_loops(off);
-  for (const tree::TreeOptions& cut :
-       {tree::TreeOptions{.leaf_size = 2}, tree::TreeOptions{}, tree::TreeOptions{.for_one_solution = true}})
+  for (const tree::TreeOptions& cut : {tree::TreeOptions{.leaf_size = 2}, tree::TreeOptions{}})
     for (const bool lanes : {false, true}) {
       Solved s(aligned, cut, {.lanes = lanes});
       const int all = s.factor().deficiency;
@@ -195,14 +194,13 @@ TEST(LoopRows, AJointThatIsAlignedAndNotAgainChangesTheRank) {
 }
 
 TEST(LoopRows, AStructureThatIsHeldAfterwardsIsFactoredWithoutThem) {
-  // All dependent rows get a diagonal, as soft joints have: nothing depends any more, and fronts return to their lanes
-  // and registers.
+  // All dependent rows get a diagonal, as soft joints have: nothing depends any more, and fronts return to their
+  // lanes.
   const Scene rigid = make_loops({.columns = 8});
   Scene soft = rigid;
   for (Eigen::MatrixXd& a : soft.elements)
     if (a.rows() > 6) a.bottomRightCorner(5, 5) -= 1e-6 * Eigen::MatrixXd::Identity(5, 5);
-  for (const tree::TreeOptions& cut :
-       {tree::TreeOptions{.leaf_size = 2}, tree::TreeOptions{}, tree::TreeOptions{.for_one_solution = true}}) {
+  for (const tree::TreeOptions& cut : {tree::TreeOptions{.leaf_size = 2}, tree::TreeOptions{}}) {
     Solved s(rigid, cut, {});
     EXPECT_EQ(s.factor().deficiency, 24);
     write_elements(soft, s.solver);

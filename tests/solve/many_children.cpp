@@ -4,7 +4,7 @@
 namespace bough::test {
 namespace {
 
-/// More children of one front in registers than 16 bits count.
+/// More children of one front than 16 bits count.
 TEST(ManyChildren, AHubMayHaveAnyNumberOfArms) {
   SceneMaker m(11);
   const int hub = m.add_node();
@@ -20,7 +20,6 @@ TEST(ManyChildren, AHubMayHaveAnyNumberOfArms) {
   const Scene scene = m.finish("hub");
   Solved s(scene, {.leaf_size = scene.graph.num_elements()}, {.refinement_steps = 0});
   ASSERT_TRUE(s.factor().ok());
-  ASSERT_GT(s.solver.counters().fronts_in_registers, 33000);
   (void)s.solve(s.random_rhs(5));
   EXPECT_LE(s.report.backward_error, 1e-13);
 }

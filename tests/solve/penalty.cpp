@@ -58,45 +58,5 @@ TEST(Penalty, AugmentedEliminationIsTheSameOnPaperAndLosesADigitPerDecade) {
   EXPECT_GT(error_12, 1e6 * flat.backward);
 }
 
-TEST(Penalty, LocalMultipliersAreTheForcesBetweenSubdomains) {
-  // At every node of the interface mesh the local multipliers of all sub-domains that meet there and the loads that
-  // were applied above balance: sum_i L_i^T l_i = 0 for an interior load. Here: the two children of the root, loads
-  // inside the leaves only.
-  const Scene scene = make_chain(5, 1, 24);
-  Solved s(scene, {.depth = 1}, {.multiplier_scale = 4.0});
-  ASSERT_TRUE(s.factor().ok());
-  const auto& root = s.tree.subdomains.back();
-  const auto children = s.tree.children(root);
-  ASSERT_EQ(children.size(), 2u);
-  const auto shared = s.tree.boundary_blocks(
-      s.tree.fronts[static_cast<std::size_t>(s.tree.subdomains[static_cast<std::size_t>(children[0])].top())]);
-  ASSERT_EQ(shared.size(), 1u);
-  Eigen::VectorXd b = s.random_rhs(2);
-  const int first = scene.first_unknown()[static_cast<std::size_t>(shared[0])];
-  b.segment(first, 6).setZero();
-  const Eigen::VectorXd x = s.solve(b);
-  const auto l0 = s.solver.local_multipliers(children[0], b.data()),
-             l1 = s.solver.local_multipliers(children[1], b.data());
-  // Oracle: the residual of the elements of one side alone at the shared node.
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(6);
-  for (int e : s.tree.elements(s.tree.subdomains[static_cast<std::size_t>(children[0])])) {
-    const auto& a = scene.elements[static_cast<std::size_t>(e)];
-    Eigen::VectorXd xe(a.cols());
-    int k = 0, at = -1;
-    for (auto p = scene.graph.element_begin[static_cast<std::size_t>(e)];
-         p < scene.graph.element_begin[static_cast<std::size_t>(e) + 1]; ++p) {
-      const auto blk = static_cast<std::size_t>(scene.graph.element_blocks[static_cast<std::size_t>(p)]);
-      if (static_cast<int>(blk) == shared[0]) at = k;
-      for (int i = 0; i < scene.graph.block_size[blk]; ++i) xe(k++) = x(scene.first_unknown()[blk] + i);
-    }
-    if (at >= 0) force -= a.middleRows(at, 6) * xe;
-  }
-  const double size = force.lpNorm<Eigen::Infinity>();
-  for (int i = 0; i < 6; ++i) {
-    EXPECT_NEAR(4.0 * l0[static_cast<std::size_t>(i)], force(i), 1e-10 * size);
-    EXPECT_NEAR(l0[static_cast<std::size_t>(i)] + l1[static_cast<std::size_t>(i)], 0.0, 1e-10 * size);
-  }
-}
-
 }  // namespace
 }  // namespace bough::test

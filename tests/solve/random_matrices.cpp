@@ -100,8 +100,7 @@ void compare(int number, Parts parts, solve::Symmetry symmetry, Tally& tally) {
       "case " + std::to_string(number) + ", " + c.scene.name + ", " + std::to_string(n) + " unknowns";
   Solved on(c.scene, {.leaf_size = c.leaf_size}, {.symmetry = symmetry});
   Solved off(c.scene, {.leaf_size = c.leaf_size}, {.symmetry = symmetry, .lanes = false});
-  Solved swept(c.scene, {.for_one_solution = true}, {.symmetry = symmetry});
-  for (Solved* s : {&on, &off, &swept}) {
+  for (Solved* s : {&on, &off}) {
     const auto status = s->factor();
     ASSERT_TRUE(status.ok()) << what << ": block " << status.block << ", magnitude " << status.magnitude;
     ASSERT_EQ(status.deficiency, c.deficiency()) << what;
@@ -128,7 +127,6 @@ void compare(int number, Parts parts, solve::Symmetry symmetry, Tally& tally) {
     return scaled;
   };
   const VectorXd with = check(on.solve(rhs), "lanes on"), without = check(off.solve(rhs), "lanes off");
-  check(swept.solve(rhs), "for one solution");
   EXPECT_LE(size_of(with - without) / size_of(y), bar) << what << ", lanes on and off";
   if (solve::Monolithic::available() && !is_symmetric) {
     solve::Monolithic klu(c.scene.graph, on.tree);

@@ -12,8 +12,7 @@ namespace {
 
 std::vector<double> run(const Scene& scene, const tree::Walker& walker, int leaf,
                         solve::Symmetry symmetry = solve::Symmetry::general) {
-  Solved s(scene, {.leaf_size = leaf, .for_one_solution = leaf == 0},
-           {.symmetry = symmetry, .refinement_steps = 2, .refinement_above = 0.0});
+  Solved s(scene, {.leaf_size = leaf}, {.symmetry = symmetry, .refinement_steps = 2, .refinement_above = 0.0});
   EXPECT_TRUE(s.solver.factor(walker).ok());
   const Eigen::VectorXd b = s.random_rhs(5);
   std::vector<double> x(static_cast<std::size_t>(b.size()));

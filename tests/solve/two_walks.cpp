@@ -86,7 +86,7 @@ TEST(TwoWalks, give_the_bits_of_a_solution_with_work_in_all_visits) {
       for (const int threads : {1, 3}) {
         SCOPED_TRACE(scene.name + ", leaves of " + std::to_string(leaf) + ", threads " + std::to_string(threads));
         const schedule::Threads pool(threads, 0.0);
-        Solved s(scene, {.leaf_size = leaf, .for_one_solution = leaf == 0}, {});
+        Solved s(scene, {.leaf_size = leaf}, {});
         ASSERT_TRUE(s.factor().ok());
         const Eigen::VectorXd b = s.random_rhs(3), c = s.random_rhs(4);
         const Eigen::VectorXd x = s.solve(b);

@@ -246,41 +246,6 @@ TEST(Tree, AllLeavesOfAChainEliminateTheSame) {
   EXPECT_EQ(interfaces, (std::set<int>{3, 6}));
 }
 
-/// Two halves, each swept from its free end: no front has more than a block, its multipliers and the next block.
-TEST(Tree, ForOneSolutionAChainIsCutOnce) {
-  for (const int links : {32, 500}) {
-    const tree::Tree t = tree::make_tree(make_planar_chain(links), {.for_one_solution = true});
-    ASSERT_EQ(t.num_subdomains(), 3);
-    std::size_t elements[2];
-    for (int s = 0; s < 2; ++s) {
-      elements[s] = t.elements(t.subdomains[at(s)]).size();
-      for (tree::FrontId f = t.subdomains[at(s)].front_begin; f < t.subdomains[at(s)].front_end; ++f) {
-        EXPECT_LE(t.fronts[at(f)].num_boundary, 3);
-        EXPECT_LE(t.fronts[at(f)].size(), tree::largest_swept_front);
-        EXPECT_LE(t.children(t.fronts[at(f)]).size(), 1u);
-      }
-    }
-    EXPECT_NEAR(static_cast<double>(elements[0]), static_cast<double>(elements[1]), 5.0);
-  }
-  // What is no chain, or was given sizes, is cut as ever.
-  const auto count = [](const blocks::BlockGraph& g, tree::TreeOptions options) {
-    options.for_one_solution = true;
-    const int with = tree::make_tree(g, options).num_subdomains();
-    options.for_one_solution = false;
-    EXPECT_EQ(with, tree::make_tree(g, options).num_subdomains());
-    return with;
-  };
-  EXPECT_GT(count(make_planar_chain(128), {.leaf_size = 4}), 64);
-  EXPECT_EQ(count(make_planar_chain(128), {.depth = 2}), 7);
-  blocks::BlockGraph ring = make_planar_chain(128);
-  ring.element_blocks.insert(ring.element_blocks.end(), {0, ring.num_blocks() - 1});
-  ring.element_begin.push_back(static_cast<std::int64_t>(ring.element_blocks.size()));
-  EXPECT_GT(count(ring, {}), 8);
-  blocks::BlockGraph wide = make_planar_chain(128);  // of blocks that are too large
-  for (int& size : wide.block_size) size *= 4;
-  EXPECT_GT(count(wide, {}), 8);
-}
-
 /// Leaves that nothing is gained from are not made: a short chain is one of few fronts.
 TEST(Tree, WithoutLockstepAShortChainIsOneLeaf) {
   const auto leaves = [](const tree::Tree& t) {

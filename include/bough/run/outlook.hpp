@@ -36,7 +36,7 @@ struct Outlook {
   std::int64_t unknowns_in_space = 0;  ///< six per node, and every row of every joint
   std::string motions;                 ///< "in space", "in a plane", ...
   std::string cut;                     ///< how the tree was made
-  int sub_domains = 0, leaves = 0, levels = 0, fronts_in_lanes = 0, fronts_in_registers = 0, fronts = 0;
+  int sub_domains = 0, leaves = 0, levels = 0, fronts_in_lanes = 0, fronts = 0;
   Effort effort;
   double steps = 0.0;              ///< equal steps or load steps; with error control, as many as of the first size
   std::int64_t process_bytes = 0;  ///< estimated peak of the process: the program and memory_bytes

@@ -52,7 +52,7 @@ class Hierarchical {
   void trust_symmetry(bool mirrored);
 
   /// Assembles, factors and condenses all sub-domains. Allocates only if delayed pivots enlarge a front, if fronts
-  /// leave lanes or registers for the first time, or if rows are dependent. `before` writes the element matrices of
+  /// leave lanes for the first time, or if rows are dependent. `before` writes the element matrices of
   /// each visit; where scales are computed, which takes all matrices, in a walk of its own. With `rhs` (num_unknowns),
   /// whose entries a visit eliminates `before` may write, too, the right-hand side is condensed in the same visits,
   /// while a front is in the cache; substitute() then solves.
@@ -96,10 +96,6 @@ class Hierarchical {
   /// `widest` unknowns (dense singular values, for reports; allocates) and are NaN for others. flops: of the
   /// sub-domain's own fronts; seconds are not measured.
   std::vector<InterfaceReport> interfaces(int widest = std::numeric_limits<int>::max()) const;
-  /// Local multipliers l_i of a sub-domain in the solution for a right-hand side (num_unknowns), which is computed
-  /// here: generalised interface forces in the units of the right-hand side (times 1/s), one per unknown of its
-  /// boundary blocks, in that order. Precondition: factor() was ok.
-  std::vector<double> local_multipliers(tree::SubdomainId subdomain, const double* rhs) const;
   /// Blocks whose multipliers are not unique (they take part in a null vector), ascending. Empty without deficiency.
   std::vector<int> blocks_not_unique() const;
   /// Scale of every unknown and of every row (powers of two): scaled A = row_scale A column_scale.

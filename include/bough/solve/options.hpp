@@ -13,13 +13,12 @@ enum class Elimination {
   augmented,
 };
 
-/// Checks of a solution in solve().
+/// Check of a solution in solve().
 enum class SolveCheck {
-  none,  ///< backward errors are not computed (NaN in the report).
+  none,  ///< the backward error is not computed (NaN in the report).
   /// Normwise, by one more product with the element matrices, which must still be the factored ones. |A| is that of the
   /// matrix from which the scales were computed.
   backward_error,
-  componentwise,  ///< normwise and componentwise, which takes a second product.
 };
 
 /// Properties of the values that the caller declares.
@@ -36,10 +35,9 @@ struct SolveOptions {
   Symmetry symmetry = Symmetry::general;
   /// The root's front is stored as assembled, for Hierarchical::inertia().
   bool inertia = false;
-  /// Equal sub-domains are factored in lockstep, eight per pack, and small leaves without equals in registers (flat
-  /// elimination only).
+  /// Equal sub-domains are factored in lockstep, eight per pack (flat elimination only).
   bool lanes = true;
-  /// Bytes of matrices and factors in lanes and registers above which a factorization prefetches its input and writes
+  /// Bytes of matrices and factors in lanes above which a factorization prefetches its input and writes
   /// factors past the caches. Results have the same bits. 0: an eighth of the last cache, which other programs use as
   /// well, but at least 16 MB.
   std::int64_t near_bytes = 0;

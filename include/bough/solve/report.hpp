@@ -35,8 +35,6 @@ struct SolveReport {
   /// For the part of b that has a solution, and for A without entries taken to be zero (see inconsistency and
   /// rank_error).
   double backward_error = std::numeric_limits<double>::quiet_NaN();  ///< |r| / (|A| |x| + |b|), maximum norms, scaled.
-  double componentwise_backward_error =
-      std::numeric_limits<double>::quiet_NaN();  ///< max_i |r|_i / (|A||x| + |b|)_i [Oettli, Prager 1964].
   int refinement_steps = 0;
   int deficiency = 0;  ///< as in FactorStatus.
   double inconsistency =
@@ -109,9 +107,6 @@ struct SolverCounters {
   std::int64_t enlarging_allocations = 0;  ///< heap allocations these needed.
   std::int64_t fronts_in_lanes = 0;        ///< fronts of the tree that are factored in lockstep.
   double flops_in_lanes = 0.0;             ///< the part of factor_flops in these fronts [flop].
-  std::int64_t fronts_in_registers = 0;    ///< fronts of leaves without equals, eliminated row by row in registers.
-  std::int64_t registers_left =
-      0;  ///< leaves of those that were factored by pivoting instead, over all factorizations.
   std::int64_t lanes_left =
       0;  ///< fronts that left their lane for scalar elimination with pivoting, over all factorizations.
 };

@@ -20,10 +20,6 @@ using FrontId = std::int32_t;
 using SubdomainId = std::int32_t;
 constexpr std::int32_t none = -1;
 
-/// Largest number of unknowns of a front that is eliminated row by row in registers. A leaf that is not in lockstep
-/// with others is eliminated in this way if none of its fronts is larger.
-constexpr int largest_swept_front = 23;
-
 /// Options for the division of the elements into sub-domains.
 struct TreeOptions {
   int leaf_size = 0;  ///< largest number of elements of a leaf sub-domain, >= 1; 0: from a cost estimate (see
@@ -34,11 +30,6 @@ struct TreeOptions {
   bool in_lockstep =
       true;  ///< whether equal leaves are visited eight at a time; leaf sizes that are not given are then chosen to
              ///< allow it.
-  /// Set where every factorization serves a single solution and the matrix is unsymmetric. If sizes are not given, a
-  /// chain is then cut once, and both halves are swept from their free ends. This takes a third of the flops and less
-  /// than two thirds of the memory of leaves in lockstep, but occupies at most two threads. Other structures are cut as
-  /// usual. With several solutions per factorization, or with symmetric matrices, leaves in lockstep are faster.
-  bool for_one_solution = false;
   unsigned seed = 1;  ///< seed of the general partitioner; the tree is a function of the graph and these options alone.
 };
 
