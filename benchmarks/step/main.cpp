@@ -1,6 +1,7 @@
-/// bench_step [--case=REGEX] [--solver=REGEX] [--scaling=yes] [--loops=yes] [options of Google Benchmark]
+/// bench_step [--case=REGEX] [--solver=REGEX] [--scaling=yes] [--million=yes] [--loops=yes] [options of Google Benchmark]
 /// One iteration is one accepted time step of the program, from rest. Instead of the usual cases --scaling=yes: chains
-/// of 32 to 32768 links; --loops=yes: 20 to 320 windows of four-bars in space, in motion.
+/// of 32 to 32768 links; --million=yes: a chain and a lattice of about a million unknowns; --loops=yes: 20 to 320
+/// windows of four-bars in space, in motion.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -45,13 +46,15 @@ scene::Scene make_four_bars_in_space(int windows) {
   return s;
 }
 
-std::vector<StepCase> make_step_cases(bool scaling, bool loops) {
+std::vector<StepCase> make_step_cases(bool scaling, bool million, bool loops) {
   std::vector<StepCase> cases;
   if (loops) {
     for (int windows : {20, 40, 80, 160, 320})
       cases.push_back({"four_bars_" + std::to_string(windows), windows, 50, make_four_bars_in_space, true});
     return cases;
   }
+  if (million)
+    return {{"chain_200000", 200000, 10, make_chain, false}, {"lattice_577", 577, 10, make_clamped_lattice, false}};
   if (scaling) {
     for (int links : {32, 128, 512, 2048, 8192, 32768})
       cases.push_back({"chain_" + std::to_string(links), links, links > 4096 ? 10 : 50, make_chain, false});
@@ -135,6 +138,8 @@ void run_steps(benchmark::State& state, const StepCase& c, scene::SolverForm for
   state.counters["output_ms"] = 1e3 * per_step([](const S& s) { return s.times.output; });
   state.counters["iterations_a_step"] = per_step([](const S& s) { return s.steps.newton_iterations; });
   state.counters["factorizations_a_step"] = per_step([](const S& s) { return s.steps.factorizations; });
+  state.counters["prepare_s"] = end.times.prepare;  // reading apart: plan, tree and symbolic factorization
+  state.counters["memory_peak_mb"] = 1e-6 * static_cast<double>(end.memory_peak_bytes);
   if (loads.factor_flops == 0.0) return;
   const auto rate = [&](const char* of, double amount) {  // per CPU time; omitted if the phase takes none
     const double seconds = 1e-3 * state.counters[of].value;
@@ -219,6 +224,7 @@ int main(int argc, char** argv) {
   const std::regex wanted_case(take_option(arguments, "case", ".*"));
   const std::regex wanted_solver(take_option(arguments, "solver", ".*"));
   const bool scaling = take_option(arguments, "scaling", "no") == "yes";
+  const bool million = take_option(arguments, "million", "no") == "yes";
   const bool loops = take_option(arguments, "loops", "no") == "yes";
   std::vector<std::string> defaults{"--benchmark_repetitions=5", "--benchmark_enable_random_interleaving=true",
                                     "--benchmark_min_time=0.01"};
@@ -228,7 +234,7 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
   add_context();
 
-  const std::vector<StepCase> cases = make_step_cases(scaling, loops);
+  const std::vector<StepCase> cases = make_step_cases(scaling, million, loops);
 #ifdef BOUGH_BENCH_HAS_KLU
   std::vector<std::unique_ptr<KluRow>> klu_rows;
 #endif

@@ -43,6 +43,9 @@ void write_subdomain(JsonText& json, const records::SubdomainProfile& s) {
   json.member("thread", static_cast<long long>(s.thread));
   write_times(json, s.times);
   json.member("subtree_seconds", s.subtree_seconds);
+  json.member("path", s.path);
+  json.member("interface_force", s.force);
+  json.member("interface_moment", s.moment);
   json.member("condition", s.condition);
   json.member("digits_lost", s.digits_lost());
   json.end_object();

@@ -18,7 +18,7 @@ using records::SubdomainProfile;
 
 constexpr double width = 960.0, least_width = 1.2;  // [px]
 constexpr int num_colors = 9;
-constexpr std::size_t num_measures = 3;
+constexpr std::size_t num_measures = 4;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -36,6 +36,7 @@ constexpr std::array<Measure, num_measures> measures{{
      [](const SubdomainProfile& s) { return static_cast<double>(s.interface_unknowns); }, io::amount_text},
     {"condition", "condition of the interface flexibility", [](const SubdomainProfile& s) { return s.condition; },
      io::amount_text},
+    {"force", "force at the interface [N]", [](const SubdomainProfile& s) { return s.force; }, io::amount_text},
 }};
 
 /// Range of a measure's colours, logarithmic.
@@ -57,7 +58,8 @@ struct Cell {
 };
 
 std::string tip_of(const SubdomainProfile& s, int count) {
-  std::string t = "sub-domain " + std::to_string(s.id) + ", level " + std::to_string(s.level);
+  std::string t = "sub-domain " + std::to_string(s.id) + ", level " + std::to_string(s.level) +
+                  (s.path.empty() ? "" : ", path " + s.path);
   if (count > 1) t = "the costliest of " + std::to_string(count) + ": " + t;
   t += s.is_leaf ? ", leaf of " + std::to_string(s.num_elements) + " elements" : ", separator";
   t += "\n" + std::to_string(s.num_unknowns) + " unknowns, interface " + std::to_string(s.interface_unknowns) +
@@ -71,6 +73,9 @@ std::string tip_of(const SubdomainProfile& s, int count) {
   if (s.num_in_visit > 1) t += "; in lockstep with " + std::to_string(s.num_in_visit - 1) + " others";
   if (!std::isnan(s.condition))
     t += "\ncondition " + io::rounded_text(s.condition, 3) + ", digits lost " + io::rounded_text(s.digits_lost(), 2);
+  if (!std::isnan(s.force))
+    t += "\nheld at the interface by " + io::rounded_text(s.force, 3) + " N and " + io::rounded_text(s.moment, 3) +
+         " N m";
   return t;
 }
 
@@ -179,16 +184,17 @@ std::string icicle_html(const Profile& p) {
                       fill_styles("", "f") + ".on{fill:#000}.on.strong{fill:#fff}" +
                       "@media (prefers-color-scheme:dark){.cx{fill:#55544f}.icicle "
                       "rect{stroke:#1a1a19}.on.weak{fill:#fff}.on.strong{fill:#000}}";
-  const std::string keys[] = {"a", "b", "c"};
+  const std::string keys[] = {"a", "b", "c", "d"};
   for (std::size_t m = 0; m < num_measures; ++m) {
     const std::string chosen = "#icicle-" + std::string(measures[m].key) + ":checked~svg ";
     style += fill_styles(chosen, keys[m]) + chosen + "." + keys[m] + "x{fill:#b9b8b0}" + ".of-" + measures[m].key +
              "{display:none}" + chosen + ".of-" + measures[m].key + "{display:inline}";
   }
-  std::string body = "<div class=\"icicle\">" + style + "</style><span class=\"choose\">Colour: </span>" +
-                     radio_buttons("icicle", {{"time", "time"}, {"size", "size"}, {"condition", "condition"}}, 0) +
-                     "<svg viewBox=\"0 0 960 " + pixel(height + 4.0) + "\" role=\"img\" aria-label=\"hierarchy\">\n" +
-                     "<rect class=\"paper\" x=\"0\" y=\"0\" width=\"960\" height=\"" + pixel(height + 4.0) + "\"/>\n";
+  std::string body =
+      "<div class=\"icicle\">" + style + "</style><span class=\"choose\">Colour: </span>" +
+      radio_buttons("icicle", {{"time", "time"}, {"size", "size"}, {"condition", "condition"}, {"force", "force"}}, 0) +
+      "<svg viewBox=\"0 0 960 " + pixel(height + 4.0) + "\" role=\"img\" aria-label=\"hierarchy\">\n" +
+      "<rect class=\"paper\" x=\"0\" y=\"0\" width=\"960\" height=\"" + pixel(height + 4.0) + "\"/>\n";
   for (std::size_t m = 0; m < num_measures; ++m) body += legend(measures[m], ranges[m], 4.0);
   for (std::size_t level = 0; level < rows.size(); ++level)
     for (const Cell& cell : rows[level]) {

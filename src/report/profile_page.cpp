@@ -69,13 +69,15 @@ void add_costliest(Document& page, const Profile& p) {
   std::stable_sort(order.begin(), order.end(),
                    [](const auto* a, const auto* b) { return a->times.solver() > b->times.solver(); });
   order.resize(std::min(order.size(), most));
-  Table table{{"sub-domain", "level", "visit", "thread", "elements", "unknowns", "interface", "fill", "flops", "bytes"},
-              {}};
+  Table table{
+      {"sub-domain", "path", "level", "visit", "thread", "elements", "unknowns", "interface", "fill", "flops", "bytes"},
+      {}};
   table.head.insert(table.head.end(), time_head.begin(), time_head.end());
-  table.head.insert(table.head.end(), {"condition", "digits lost"});
+  table.head.insert(table.head.end(), {"condition", "digits lost", "force at the interface, N", "moment, N m"});
   for (const records::SubdomainProfile* s : order) {
     const std::string source = "/sub_domains/" + std::to_string(s->id);
     std::vector<Cell> row{count_cell(s->id, source + "/id"),
+                          {s->path, Tone::plain, false, source + "/path"},
                           count_cell(s->level, source + "/level"),
                           count_cell(s->visit, source + "/visit"),
                           count_cell(s->thread, source + "/thread"),
@@ -88,10 +90,14 @@ void add_costliest(Document& page, const Profile& p) {
     for (Cell& c : time_cells(s->times, source)) row.push_back(std::move(c));
     row.push_back(number_cell(s->condition, 3, source + "/condition"));
     row.push_back(number_cell(s->digits_lost(), 3, source + "/digits_lost"));
+    row.push_back(number_cell(s->force, 3, source + "/interface_force"));
+    row.push_back(number_cell(s->moment, 3, source + "/interface_moment"));
     table.rows.push_back(std::move(row));
   }
-  table.caption = "The " + std::to_string(order.size()) + " of " + std::to_string(p.subdomains.size()) +
-                  " sub-domains that cost most; all of them are in profile.json.";
+  table.caption =
+      "The " + std::to_string(order.size()) + " of " + std::to_string(p.subdomains.size()) +
+      " sub-domains that cost most; all of them are in profile.json. A sensor of kind interface_force takes their "
+      "path; force and moment, about the middle of the interface's nodes, are those of the last step.";
   page.table(table);
 }
 

@@ -1,4 +1,4 @@
-#include "interface_force.hpp"
+#include "bough/results/interface_force.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 #include <optional>
 
 #include "bough/motion/frame_chain.hpp"
+#include "bough/results/interface_force.hpp"
 #include "bough/scene/sensor_kinds.hpp"
-#include "interface_force.hpp"
 #include "observe_parts.hpp"
 
 namespace bough::results {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <thread>
 
+#include "bough/results/interface_force.hpp"
 #include "bough/schedule/threads.hpp"
 #include "profile_cost.hpp"
 #include "profile_parts.hpp"
@@ -87,10 +88,21 @@ struct Found {
   tree::Tree tree;
   solve::VisitShapes shapes;
   std::vector<solve::InterfaceReport> interfaces;
+  std::vector<motion::Vec6<double>> interface_forces;  ///< by sub-domain; empty where the run failed
   solve::SolverCounters counters;
   blocks::BlockGraph graph;
   solve::SolveOptions options;
 };
+
+/// By sub-domain; that of the root is zero.
+std::vector<motion::Vec6<double>> eval_interface_forces(const step::System& system, const step::State& state) {
+  const elements::Field field = system.instant().field(state);
+  const tree::Tree& tree = system.linear().tree();
+  std::vector<motion::Vec6<double>> forces(tree.subdomains.size(), motion::Vec6<double>::zero());
+  for (tree::SubdomainId s = 0; s < tree.num_subdomains(); ++s)
+    if (s != tree.root()) forces[at(s)] = results::eval_interface_force(system, state, field, s);
+  return forces;
+}
 
 void fill_subdomains(const Found& found, const VisitMedians& m, records::Profile& out) {
   const std::vector<std::int64_t> own_entries = count_matrix_entries(found.graph, found.tree);
@@ -147,6 +159,17 @@ void fill_subdomains(const Found& found, const VisitMedians& m, records::Profile
     out.element_bytes += shape.element_bytes;
   }
   for (const solve::InterfaceReport& i : found.interfaces) out.subdomains[at(i.subdomain)].condition = i.condition;
+  for (std::size_t s = out.subdomains.size(); s-- > 0;) {  // parents first
+    const std::string& above = out.subdomains[s].path;
+    int k = 0;
+    for (tree::SubdomainId c : found.tree.children(found.tree.subdomains[s]))
+      out.subdomains[at(c)].path = above + (above.empty() ? "" : ".") + std::to_string(k++);
+    if (out.subdomains[s].parent < 0 || found.interface_forces.empty()) continue;
+    const motion::Vec3<double> f = lanes::linear_part(found.interface_forces[s]);
+    const motion::Vec3<double> m = lanes::angular_part(found.interface_forces[s]);
+    out.subdomains[s].force = std::sqrt(lanes::dot(f, f));
+    out.subdomains[s].moment = std::sqrt(lanes::dot(m, m));
+  }
   records::sum_subtrees(out.subdomains);
   out.levels = records::sum_levels(out.subdomains);
 }
@@ -278,7 +301,7 @@ records::Profile profile(const scene::Scene& given, const ProfileOptions& option
   out.machine_threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   out.widest_condition = options.widest_condition;
   Found found;
-  const auto look = [&](step::System& system) {
+  const auto look = [&](step::System& system, const step::State& state) {
     found.tree = system.linear().tree();
     found.graph = system.plan().graph;
     found.options = step::make_solve_options(system.plan(), scene.solver);
@@ -286,6 +309,7 @@ records::Profile profile(const scene::Scene& given, const ProfileOptions& option
     found.counters = system.linear().solver().counters();
     if (system.counts().factorizations > 0 && system.linear().solver().last_status().ok())
       found.interfaces = system.linear().solver().hierarchical()->interfaces(options.widest_condition);
+    found.interface_forces = eval_interface_forces(system, state);
     out.is_dynamic = system.plan().is_dynamic;
     draw_parts(system.plan(), found.tree, out);
   };

@@ -8,7 +8,8 @@ namespace bough::study {
 constexpr long all_watched = 16, watched_stride = 7;
 
 WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options, records::Recorder& recorder,
-                     const run::ProgressCallback& progress, const std::function<void(step::System&)>& look) {
+                     const run::ProgressCallback& progress,
+                     const std::function<void(step::System&, const step::State&)>& look) {
   using Clock = std::chrono::steady_clock;
   WatchedRun run;
   std::unique_ptr<schedule::TimedWalker> watch;
@@ -37,12 +38,12 @@ WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options
     step_begin = Clock::now();
     return true;
   };
-  simulate_options.after_run = [&](step::System& system, const step::State&) {
+  simulate_options.after_run = [&](step::System& system, const step::State& state) {
     run.times = watch->times();
     for (const auto& [begin, end] : marks)
       run.kept_steps.push_back({static_cast<double>(begin) * run.times.seconds_per_tick,
                                 static_cast<double>(end - begin) * run.times.seconds_per_tick});
-    if (look) look(system);
+    if (look) look(system, state);
   };
   const auto on_step = [&](const records::Progress& p) {
     run.steps.push_back(std::chrono::duration<double>(Clock::now() - step_begin).count());

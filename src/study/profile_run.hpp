@@ -32,7 +32,8 @@ struct WatchedRunOptions {
 /// share of small steps, and medians do not need more. (The interval is odd because factorizations are often renewed in
 /// every second step.) `look` is called once after the last step.
 WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options, records::Recorder& recorder,
-                     const run::ProgressCallback& progress, const std::function<void(step::System&)>& look = {});
+                     const run::ProgressCallback& progress,
+                     const std::function<void(step::System&, const step::State&)>& look = {});
 
 /// A recorder that discards everything.
 class NullRecorder final : public records::Recorder {

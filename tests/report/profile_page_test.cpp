@@ -65,8 +65,8 @@ TEST(ProfilePage, is_one_file_without_scripts) {
   EXPECT_NE(html.find("two &lt;leaves&gt;"), std::string::npos);
   EXPECT_EQ(html.find("two <leaves>"), std::string::npos);
   EXPECT_EQ(html.find("nan"), std::string::npos);
-  for (const char* part :
-       {"id=\"icicle-time\"", "id=\"icicle-size\"", "id=\"icicle-condition\"", "id=\"scene-1\"", "timeline"})
+  for (const char* part : {"id=\"icicle-time\"", "id=\"icicle-size\"", "id=\"icicle-condition\"", "id=\"icicle-force\"",
+                           "id=\"scene-1\"", "timeline"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
 }
 

@@ -186,6 +186,38 @@ TEST(ProfileParts, entries_of_the_matrix_are_all_counted_once) {
   }
 }
 
+TEST(Profile, forces_at_interfaces_are_those_of_sensors_by_their_paths) {
+  scene::Scene s = make_scene(24, 3);
+  s.sensors.clear();
+  const tree::Tree tree = walk_of(s);
+  Rows before;
+  const Profile without = study::profile(s, {.threads = 1, .steps = 20, .steps_for_speed = 4}, before);
+  ASSERT_GT(without.subdomains.size(), 6u);
+  for (const SubdomainProfile& d : without.subdomains) {
+    EXPECT_EQ(d.path.empty(), d.parent < 0);
+    if (d.parent < 0) continue;
+    s.sensors.emplace_back();
+    s.sensors.back().name = "s" + std::to_string(d.id);
+    s.sensors.back().kind = scene::SensorKind::interface_force;
+    s.sensors.back().subdomain = d.path;
+  }
+  Rows rows;
+  const Profile p = study::profile(s, {.threads = 1, .steps = 20, .steps_for_speed = 4}, rows);
+  ASSERT_EQ(p.steps, 10);
+  ASSERT_EQ(rows.rows.back().values.size(), before.rows.back().values.size() + 6 * s.sensors.size());
+  std::size_t k = 0;
+  for (const SubdomainProfile& d : p.subdomains) {
+    if (d.parent < 0) {
+      EXPECT_TRUE(std::isnan(d.force));
+      continue;
+    }
+    const double* w = rows.rows.back().values.data() + 6 * k++;
+    EXPECT_GT(d.force, 0.0);
+    EXPECT_DOUBLE_EQ(d.force, std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])) << d.path;
+    EXPECT_DOUBLE_EQ(d.moment, std::sqrt(w[3] * w[3] + w[4] * w[4] + w[5] * w[5])) << d.path;
+  }
+}
+
 TEST(Profile, sums_of_the_tree_agree) {
   for (int threads : {1, 2}) {
     const scene::Scene s = make_scene(80, 4);

@@ -48,6 +48,11 @@ struct SubdomainProfile {
       std::numeric_limits<double>::quiet_NaN();  ///< condition of the scaled flexibility of its interface; NaN: not
                                                  ///< computed
   double digits_lost() const;                    ///< log10 of condition
+  std::string path;  ///< the child taken at each level from the root, "0.1", as sensors of interfaces name it
+  /// Magnitudes of the wrench with which the rest holds it at its interface, about the middle of the interface's nodes,
+  /// at the last step [N, N m]; NaN for the root.
+  double force = std::numeric_limits<double>::quiet_NaN();
+  double moment = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct LevelProfile {

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "observe_parts.hpp"
+#include "bough/step/system.hpp"
 
 namespace bough::results {
 
