@@ -67,13 +67,13 @@ struct Integrator {
     system.work().eight_most.resize(order.eights().size());
     start.visit([&]<class G>(const NodesOn<G>& from) {
       NodesOn<G>& nodes = state.resize_as<G>(start);
+      keep_held(from, nodes, order);
       auto some = [&](std::int64_t begin, std::int64_t end) {
         note_most(system, begin, end,
                   predict_nodes(rule, start.predictor_order, from, nodes, order, static_cast<std::size_t>(begin),
                                 static_cast<std::size_t>(end)));
       };
-      system.walker().for_each_chunk(static_cast<std::int64_t>(order.eights().size()), eight_grain,
-                                     tree::make_chunk(some));
+      system.walker().for_each_chunk(order.by_visit().count(), eight_grain, tree::make_chunk(some));
     });
     return judge_turn(state);
   }
@@ -118,7 +118,7 @@ struct Integrator {
 void note_end(System& system, const AlphaRule& rule, const State& start, State& state) {
   const double arm = system.moment_arm(), per_length = 1.0 / system.plan().length_scale;
   std::vector<Workspace::StepEnd>& parts = system.work().step_ends;
-  const auto count = static_cast<std::int64_t>(system.node_order()->eights().size());
+  const std::int64_t count = system.node_order()->by_visit().count();
   parts.resize(static_cast<std::size_t>((count + eight_grain - 1) / eight_grain));
   system.work().misses.resize(system.plan().nodes.size());
   state.change_all([&]<class G>(NodesOn<G>& nodes) {

@@ -46,15 +46,19 @@ inline bool is_idle_joint(const plan::Plan& plan, int joint) {
 }
 
 /// Entries of an element's residual and of its magnitude in the order of ResidualSums::parts: for its nodes, of
-/// `node_unknowns` each, and its rows, with which the signals that it reads are counted.
-template <class S>
-void join_parts(int node_unknowns, int num_unknowns, int num_rows, const S* residual, const S* magnitude, S* parts) {
-  const int forces = num_unknowns - num_rows;
-  for (int begin = 0, end = 0; begin < num_unknowns; begin = end) {
-    end = begin < forces ? begin + node_unknowns : num_unknowns;
-    for (int i = begin; i < end; ++i) *parts++ = residual[i];
-    for (int i = begin; i < end; ++i) *parts++ = magnitude[i];
-  }
+/// `node_unknowns` each (an integral constant where the compiler should know it), and its rows, with which the signals
+/// that it reads are counted.
+template <class Count, class S>
+void join_parts(Count node_unknowns, int num_unknowns, int num_rows, const S* residual, const S* magnitude, S* parts) {
+  const auto join = [&](auto count) {
+    for (int i = 0; i < count; ++i) parts[i] = residual[i];
+    for (int i = 0; i < count; ++i) parts[count + i] = magnitude[i];
+    residual += count;
+    magnitude += count;
+    parts += 2 * count;
+  };
+  for (int begin = 0; begin < num_unknowns - num_rows; begin += node_unknowns) join(node_unknowns);
+  if (num_rows > 0) join(num_rows);
 }
 
 /// The multipliers that an element on the group G of a joint takes: in space of all rows, on another group of those

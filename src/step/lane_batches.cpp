@@ -233,7 +233,7 @@ void LaneBatches<G>::evaluate_as(const solve::ElementBatch& batch, const Slot& s
   Pack* const direct = may_be_direct ? reinterpret_cast<Pack*>(to.tangent_of(batch.element[0]).first) : nullptr;
   Pack* matrix = direct != nullptr ? direct : to.want_tangents() ? spare : nullptr;
   evaluate_lanes(lane_element, around, multipliers, turns, residual, magnitude, matrix);
-  join_parts(G::dof, n, slot.num_rows, residual, magnitude, parts);
+  join_parts(std::integral_constant<int, G::dof>{}, n, slot.num_rows, residual, magnitude, parts);
   double nowhere[2 * most], *to_parts[wide];
   for (int l = 0; l < wide; ++l) {
     const int id = batch.element[static_cast<std::size_t>(l)];

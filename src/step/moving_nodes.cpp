@@ -293,6 +293,21 @@ void place_node(const NodesOn<G>& from, std::size_t node, const typename G::temp
 }
 
 template <class G>
+void keep_held(const NodesOn<G>& start, NodesOn<G>& state, const NodeOrder& order) {
+  for (auto k = static_cast<std::size_t>(order.by_visit().count()); k < order.eights().size(); ++k) {
+    const NodeEight& eight = order.eights()[k];
+    for (int l = 0; l < eight.count; ++l) {
+      const auto n = static_cast<std::size_t>(eight.node[static_cast<std::size_t>(l)]);
+      state.motion[n] = start.motion[n];
+      if constexpr (std::is_same_v<G, Se3>) state.rotation[n] = start.rotation[n];
+    }
+    state.algorithmic.eight(k) = start.algorithmic.eight(k);
+    state.acceleration_trend.eight(k) = start.acceleration_trend.eight(k);
+    state.trend_change.eight(k) = start.trend_change.eight(k);
+  }
+}
+
+template <class G>
 double predict_nodes(const AlphaRule& rule, int degree, const NodesOn<G>& start, NodesOn<G>& state,
                      const NodeOrder& order, std::size_t begin, std::size_t end) {
   Pack turned(0.0);
@@ -394,6 +409,7 @@ double largest_change(std::span<const PairLanes> pairs, const NodeChange<G>* cha
   template void move_nodes<G>(NodesOn<G>&, std::span<const NodeEight>, const NodeIncrements&, NodeChange<G>*);         \
   template void move_node<G>(NodesOn<G>&, std::size_t, const G::Vector<double>&);                                      \
   template void place_node<G>(const NodesOn<G>&, std::size_t, const G::Vector<double>&, NodesOn<G>&);                  \
+  template void keep_held<G>(const NodesOn<G>&, NodesOn<G>&, const NodeOrder&);                                        \
   template double predict_nodes<G>(const AlphaRule&, int, const NodesOn<G>&, NodesOn<G>&, const NodeOrder&,            \
                                    std::size_t, std::size_t);                                                          \
   template double correct_nodes<G>(const AlphaRule&, const NodesOn<G>&, NodesOn<G>&, const NodeOrder&, std::size_t,    \

@@ -49,6 +49,10 @@ template <class G>
 double correct_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, const NodeOrder& order,
                      std::size_t begin, std::size_t end, const NodeIncrements& increments, NodeChange<G>* changes);
 
+/// Nodes without unknowns are at rest: all of theirs is as it was at the start of the step.
+template <class G>
+void keep_held(const NodesOn<G>& start, NodesOn<G>& state, const NodeOrder& order);
+
 /// Predictor: sets poses, rates and dq of the nodes of `state` from those of `start`. Returns the largest squared angle
 /// of dq. degree: of the polynomial through past accelerations.
 template <class G>
