@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "observe_parts.hpp"
 
@@ -119,6 +120,13 @@ WorkMeter::WorkMeter(const plan::Plan& plan) {
       for (const elements::Port& p : e.ports)
         if (p.node != elements::ground) nodes_.push_back(p.node);
     });
+  std::unordered_map<int, std::size_t> drives_of;
+  for (const Watched& w : watched_)
+    if (w.joint >= 0) drives_of.emplace(w.joint, w.first_drive);
+  for (const plan::EnergyStore& store : plan::energy_stores(plan)) {
+    const int place = plan::joint_element(plan, store.joint).num_rows + store.effort;
+    drives_[drives_of.at(store.joint) + static_cast<std::size_t>(place)].is_stored = true;
+  }
   std::sort(nodes_.begin(), nodes_.end());
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
 }
@@ -131,7 +139,8 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
   force_ = Vec3<double>::zero();
   const auto advance_drive = [&work](Drive& drive, double way, double force) {
     work += 0.5 * (drive.force + force) * (way - drive.way);
-    drive = {way, force};
+    drive.way = way;
+    drive.force = force;
   };
   for (const Watched& w : watched_) {
     free_mass -= w.mass;
@@ -149,7 +158,7 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
             advance_drive(*drive, system.instant().law_values()[static_cast<std::size_t>(e.rows[k].law)],
                           -multipliers[k]);
         for (int k = 0; k < e.num_efforts; ++k, ++drive)
-          if (e.efforts[k].law >= 0)
+          if (e.efforts[k].law >= 0 && !drive->is_stored)
             advance_drive(*drive, elements::eval_joint_coordinate(e, e.efforts[k].coordinate, f, turns).value,
                           system.instant().law_values()[static_cast<std::size_t>(e.efforts[k].law)]);
       } else if constexpr (E::role == elements::Role::load) {

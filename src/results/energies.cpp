@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bough/elements/evaluate.hpp"
 #include "observe_parts.hpp"
 
 namespace bough::results {
@@ -42,7 +43,7 @@ elements::Energies lane_of(const EnergiesOf<LanePack>& all, int lane) {
 
 }  // namespace
 
-EnergyMeter::EnergyMeter(const plan::Plan& plan) {
+EnergyMeter::EnergyMeter(const plan::Plan& plan) : stores_(plan::energy_stores(plan)) {
   std::apply([&](auto&... kind) { (sort(plan, kind), ...); }, kinds_);
 }
 
@@ -127,9 +128,24 @@ void EnergyMeter::add(const step::System& system, const step::State& state, cons
   for (const elements::Energies& part : parts_) results::add(sum, part);
 }
 
+/// Energy of efforts that are laws of their coordinates.
+double EnergyMeter::stored(const step::System& system, const step::State& state) const {
+  double sum = 0.0;
+  const elements::Field field = system.instant().field(state);
+  for (const plan::EnergyStore& store : stores_) {
+    const elements::Joint& joint = plan::joint_element(system.plan(), store.joint);
+    const double turns = state.turns[static_cast<std::size_t>(store.joint)];
+    sum -= store.supplied
+               .at(elements::eval_joint_coordinate(joint, joint.efforts[store.effort].coordinate, field, turns).value)
+               .value;
+  }
+  return sum;
+}
+
 Energies EnergyMeter::eval(const step::System& system, const step::State& state) {
   elements::Energies sum;
   std::apply([&](const auto&... kind) { (add(system, state, kind, sum), ...); }, kinds_);
+  if (!stores_.empty()) sum.strain += stored(system, state);
   const elements::Field field = system.instant().field(state);
   Energies e;
   e.kinetic = sum.kinetic;

@@ -20,7 +20,8 @@ struct Supply {
 /// where results are wanted.
 ///  loads    W = sum of 1/2 (F_n + F_{n+1}) . (displacement from n to n+1); forces of fixed direction in inertial axes,
 ///           others in the axes of the body with the displacement log(H_n^-1 H_{n+1}): exact where they are constant
-///   drives   W = -1/2 (lambda_n + lambda_{n+1}) (law_{n+1} - law_n),   efforts alike over their coordinate
+///   drives   W = -1/2 (lambda_n + lambda_{n+1}) (law_{n+1} - law_n),   efforts alike over their coordinate, unless
+///            they store their energy (plan::energy_stores)
 ///  grounds  with prescribed motion: the work of their wrenches on the structure, computed like follower loads
 ///   dampers and impulses by the trapezoidal rule
 /// Displacements, work and impulse are those in the inertial frame, in whatever frame the analysis is described.
@@ -43,6 +44,7 @@ class WorkMeter {
   };
   struct Drive {
     double way = 0.0, force = 0.0;
+    bool is_stored = false;  ///< its energy is part of the strain energy, and it does no work
   };
   struct Watched {
     std::size_t element = 0;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bough/elements/energies.hpp"
+#include "bough/plan/stores.hpp"
 #include "bough/step/system.hpp"
 
 namespace bough::results {
@@ -49,7 +50,10 @@ class EnergyMeter {
                  const elements::Field& field, elements::Energies& sum) const;
 
   Kinds kinds_;
+  double stored(const step::System& system, const step::State& state) const;
+
   std::vector<elements::Energies> parts_;  ///< of chunks
+  std::vector<plan::EnergyStore> stores_;
 };
 
 }  // namespace bough::results
