@@ -17,12 +17,14 @@ using scene::SignalKind;
 
 /// Names of all signals of the document that formulas can call.
 void Converter::find_signal_names() {
-  const Value* list = root_.find("signals");
-  if (list == nullptr || !list->is(JsonKind::array)) return;
-  for (const Value& item : list->items)
-    if (const Value* name = item.is(JsonKind::object) ? item.find("name") : nullptr;
-        name != nullptr && name->is(JsonKind::string) && scene::is_signal_name(name->text.str()))
-      signal_names_.push_back(name->text);
+  for (const char* key : {"signals"}) {
+    const Value* list = root_.find(key);
+    if (list == nullptr || !list->is(JsonKind::array)) continue;
+    for (const Value& item : list->items)
+      if (const Value* name = item.is(JsonKind::object) ? item.find("name") : nullptr;
+          name != nullptr && name->is(JsonKind::string) && scene::is_signal_name(name->text.str()))
+        signal_names_.push_back(name->text);
+  }
 }
 
 /// The formula of a signal, in the values of those signals that it names.
