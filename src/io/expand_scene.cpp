@@ -142,7 +142,7 @@ class Expander {
       }
       const std::string& key = v.items.key(i);
       if (key == "comment") continue;
-      const bool was_in_signals = std::exchange(in_signals_, in_signals_ || key == "signals");
+      const bool was_in_signals = std::exchange(in_signals_, in_signals_ || key == "signals" || key == "force_law");
       if (key == "expression" && v.items[i].is(JsonKind::string))
         apply_to_text(v.items[i], path.member(key), true, v.find("of"));
       else

@@ -1,9 +1,12 @@
 /// Reads what signals drive and what is made of other parts of a scene: springs whose length or strength changes, and
 /// gravity as weights.
 #include <algorithm>
+#include <map>
 
 #include "bough/io/number_text.hpp"
 #include "bough/laws/formula.hpp"
+#include "bough/laws/law_error.hpp"
+#include "bough/laws/make_law.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "read_scene_impl.hpp"
 
@@ -18,6 +21,102 @@ std::string in_brackets(double x) {
   std::string text = "(";
   append_number(text, x);
   return text + ")";
+}
+
+/// A formula with other words in the place of some names.
+std::string with_words(const std::string& formula, const std::map<std::string, std::string>& words) {
+  std::string made;
+  std::size_t done = 0;
+  for (const laws::NamePlace& place : laws::names_in(formula)) {
+    const auto word = words.find(formula.substr(place.position, place.length));
+    if (word == words.end()) continue;
+    made.append(formula, done, place.position - done);
+    made += word->second;
+    done = place.position + place.length;
+  }
+  return made.append(formula, done, std::string::npos);
+}
+
+/// A tension as a formula of length, stretch and rate of a spring, and of signals.
+struct Tension {
+  std::string text;
+  double rest_length = 0.0;
+  std::vector<std::string> signals;  ///< those that it names
+  bool has_rate = false;
+  bool is_elastic = false;  ///< it is not 0 at rate 0, or depends on the length
+};
+
+/// Throws LawError where the formula cannot be read, or a name has two meanings.
+Tension read_tension(const std::string& text, double rest_length, const std::vector<std::string>& signals) {
+  Tension t{text, rest_length, {}, false, false};
+  std::vector<std::string> names{"length", "stretch", "rate"};
+  const std::size_t own = names.size();
+  const auto is_in = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  for (const laws::NamePlace& place : laws::names_in(text)) {
+    const std::string name = text.substr(place.position, place.length);
+    const bool is_own = std::find(names.begin(), names.begin() + 3, name) != names.begin() + 3;
+    if (is_own && is_in(signals, name))
+      throw laws::LawError(text, place.position, "\"" + name + "\" means the spring's own here, and a signal too");
+    t.has_rate |= name == "rate";
+    t.is_elastic |= is_own && name != "rate";
+    if (!is_own && is_in(signals, name) && !is_in(names, name)) names.push_back(name);
+  }
+  t.signals.assign(names.begin() + static_cast<std::ptrdiff_t>(own), names.end());
+  const laws::Formula formula(text, names);
+  t.is_elastic |= formula(std::vector<double>(names.size(), 0.0)) != 0.0;
+  return t;
+}
+
+/// Adds the force on the second end of a strut that a law of its length gives; `made` begins with the length.
+template <class Named>
+std::string add_elastic(const laws::Law& tension, const Named& named, std::vector<scene::Signal>& made) {
+  scene::Signal force;
+  force.kind = SignalKind::function;
+  force.name = named("force");
+  force.of = made.front().name;
+  force.inputs = {force.of};
+  force.law = laws::make_scaled(-1.0, tension);
+  made.push_back(std::move(force));
+  return made.back().name;
+}
+
+/// Adds the forces that a formula gives: that at rate 0 as a law of the length, unless it names signals, and what is
+/// left.
+template <class Named>
+std::vector<std::string> add_tension(const Tension& tension, const std::string& strut, const Named& named,
+                                     std::vector<scene::Signal>& made) {
+  std::vector<std::string> efforts;
+  const std::string length = made.front().name, rest = " - " + in_brackets(tension.rest_length) + ")";
+  if (tension.signals.empty() && tension.is_elastic)
+    efforts.push_back(add_elastic(
+        laws::make_expression(with_words(tension.text, {{"length", "t"}, {"stretch", "(t" + rest}, {"rate", "(0)"}})),
+        named, made));
+  if (tension.signals.empty() && !tension.has_rate) return efforts;
+  scene::Signal left;
+  left.kind = SignalKind::formula;
+  left.inputs = tension.signals;
+  left.inputs.push_back(length);
+  std::map<std::string, std::string> words{{"length", length}, {"stretch", "(" + length + rest}};
+  if (tension.has_rate) {
+    scene::Signal rate;
+    rate.kind = SignalKind::joint_rate;
+    rate.name = words["rate"] = named("rate");
+    rate.joint = strut;
+    left.inputs.push_back(rate.name);
+    made.push_back(std::move(rate));
+  }
+  std::string text = "-(" + with_words(tension.text, words) + ")";
+  for (const std::string& elastic : efforts) {
+    text += " - " + elastic;
+    left.inputs.push_back(elastic);
+  }
+  left.name = named("rest_of_force");
+  left.formula = laws::Formula(text, left.inputs);
+  efforts.push_back(left.name);
+  made.push_back(std::move(left));
+  return efforts;
 }
 
 }  // namespace
@@ -47,47 +146,65 @@ std::string Converter::signal_of(const Value& v, const std::string& at, const st
   return signal;
 }
 
-/// A spring whose tension is factor k (l - rest) + c l', with a factor or a rest length that a signal gives: a strut of
-/// the same name. Its own spring has the stiffness k and the rest length of the start; the effort is what is left,
-///   k (l - l_0) - factor k (l - rest),
-/// a signal, so that its derivatives are exact and its work is counted as that of a drive.
+/// A spring with more than constants: a strut of the same name with what signals add, so that derivatives are exact.
+///   tension = k (l - l_0) + c l' + added
+/// rest_law, stiffness_factor: added = factor k (l - rest) - k (l - l_0), whose work is counted as that of a drive.
+/// force_law: what it has at rate 0 is a law of the length, which stores its energy; work is counted for the rest.
 void Converter::driven_spring(const Value& v, const std::string& at, const scene::Spring& s) {
   const std::string stem = "spring_" + std::to_string(scene.joints.size()) + "_";
-  const Value *rest = v.find("rest_law"), *factor = v.find("stiffness_factor");
-  const std::string at_rest = at + "/rest_law", at_factor = at + "/stiffness_factor";
-  scene::Signal length, force;
+  const auto named = [this, &stem](const char* end) { return unused_signal_name(stem + end); };
+  std::vector<scene::Signal> made(1);
+  scene::Signal& length = made.front();
   length.kind = SignalKind::joint_displacement;
-  length.name = unused_signal_name(stem + "length");
+  length.name = named("length");
   length.joint = s.name;
-  force.kind = SignalKind::formula;
-  force.name = unused_signal_name(stem + "force");
-  force.inputs = {length.name};
-  const auto input = [&force](const std::string& name) {
-    if (std::find(force.inputs.begin(), force.inputs.end(), name) == force.inputs.end()) force.inputs.push_back(name);
-    return name;
-  };
-  const std::string k = in_brackets(s.stiffness);
-  std::string of_factor = factor != nullptr ? input(signal_of(*factor, at_factor, stem + "factor")) : "1";
-  std::string of_rest = rest != nullptr ? input(signal_of(*rest, at_rest, stem + "rest")) : in_brackets(s.rest_length);
-  if (faults.size() != faults_before_) return;
-  force.formula = laws::Formula(k + "*(" + length.name + " - " + in_brackets(s.rest_length) + ") - " + of_factor + "*" +
-                                    k + "*(" + length.name + " - " + of_rest + ")",
-                                force.inputs);
-  scene::JointForce of_strut;
-  of_strut.coordinate = "displacement";
-  of_strut.stiffness = s.stiffness;
-  of_strut.rest = s.rest_length;
-  of_strut.damping = s.damping;
-  of_strut.signal = force.name;
+  std::vector<std::string> efforts;
+  if (const Value* law_given = v.find("force_law")) {
+    const std::string at_law = at + "/force_law";
+    try {
+      if (const Value* formula = law_given->is(JsonKind::object) ? law_given->find("expression") : nullptr)
+        efforts = add_tension(read_tension(formula->text, s.rest_length, signal_names_), s.name, named, made);
+      else
+        efforts = {add_elastic(law(*law_given, at_law), named, made)};
+    } catch (const laws::LawError& e) {
+      fault(at_law + "/expression", e.what(),
+            "at character " + std::to_string(e.position + 1) +
+                "; it names length, stretch and rate of the spring, signals and parameters");
+    }
+  } else {
+    const Value *rest = v.find("rest_law"), *factor = v.find("stiffness_factor");
+    scene::Signal force;
+    force.kind = SignalKind::formula;
+    force.name = named("force");
+    force.inputs = {length.name};
+    const auto input = [&force](const std::string& name) {
+      if (std::find(force.inputs.begin(), force.inputs.end(), name) == force.inputs.end()) force.inputs.push_back(name);
+      return name;
+    };
+    const std::string k = in_brackets(s.stiffness), rest_given = in_brackets(s.rest_length);
+    const std::string of_factor =
+        factor != nullptr ? input(signal_of(*factor, at + "/stiffness_factor", stem + "factor")) : "1";
+    const std::string of_rest = rest != nullptr ? input(signal_of(*rest, at + "/rest_law", stem + "rest")) : rest_given;
+    if (faults.size() != faults_before_) return;
+    force.formula = laws::Formula(k + "*(" + length.name + " - " + rest_given + ") - " + of_factor + "*" + k + "*(" +
+                                      length.name + " - " + of_rest + ")",
+                                  force.inputs);
+    efforts = {force.name};
+    made.push_back(std::move(force));
+  }
   scene::Joint strut;
   strut.name = s.name;
   strut.kind = scene::JointKind::strut;
   strut.first = s.first;
   strut.second = s.second;
-  strut.forces.push_back(std::move(of_strut));
+  for (const std::string& effort : efforts)
+    strut.forces.push_back({"displacement", 0.0, s.rest_length, 0.0, {}, effort});
+  if (!efforts.empty()) {
+    strut.forces.front().stiffness = s.stiffness;
+    strut.forces.front().damping = s.damping;
+  }
   add(scene.joints, "joints", std::move(strut), at);
-  add(scene.signals, "signals", std::move(length), at);
-  add(scene.signals, "signals", std::move(force), at);
+  for (scene::Signal& signal : made) add(scene.signals, "signals", std::move(signal), at);
 }
 
 /// Gravity whose factor or components signals give: it is made of weights (weigh).

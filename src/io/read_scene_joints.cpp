@@ -175,7 +175,8 @@ void Converter::spring(const Value& v, const std::string& at) {
   s.damping = v.find("damping")->number;
   const auto a = poses_->of(s.first), b = poses_->of(s.second);
   s.rest_length = number_or(v, "rest_length", a && b ? norm(b->x - a->x) : 0.0);
-  if (v.find("rest_law") != nullptr || v.find("stiffness_factor") != nullptr) return driven_spring(v, at, s);
+  for (const char* key : {"rest_law", "stiffness_factor", "force_law"})
+    if (v.find(key) != nullptr) return driven_spring(v, at, s);
   add(scene.springs, "springs", std::move(s), at);
 }
 

@@ -172,8 +172,14 @@ void add_joints(RuleTable& t) {
            "Rest length that changes [m], in the place of rest_length. The spring is a strut of its name then."),
        may("stiffness_factor", named_rule("law_or_signal"),
            "Factor of the stiffness that changes [-]. The spring is a strut of its name then. Default: 1."),
+       may("force_law", named_rule("law"),
+           "Tension [N] besides that of stiffness and damping: a law with the length [m] in the place of t, or a "
+           "formula "
+           "of `length`, `stretch` = length - rest_length [m], `rate` = d length/dt [m/s], signals and parameters, as "
+           "in {\"expression\": \"k*stretch^3 + c*rate*abs(rate)\"}. What it has at rate 0 is stored as strain "
+           "energy, unless it names signals. The spring is a strut of its name then. Default: none."),
        may("damping", not_negative(""), "[N s/m].", "0")});
-  spring.at_most_one = {{"rest_length", "rest_law"}};
+  spring.at_most_one = {{"rest_length", "rest_law"}, {"force_law", "rest_law"}, {"force_law", "stiffness_factor"}};
   t.named["spring"] = made(std::move(spring));
   const RuleRef six = choice_rule("", {named_rule("diagonal6"), named_rule("matrix6")});
   t.named["bushing"] =

@@ -1,11 +1,13 @@
 // Springs and gravity that signals drive: laws of the same value, closed forms, Runge-Kutta, orders of convergence.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "bough/laws/make_law.hpp"
 #include "support/scenes.hpp"
 
 namespace bough::run {
@@ -175,6 +177,124 @@ TEST(DrivenParts, statics_converge_quadratically) {
   for (int k = 0; k < 50; ++k) x -= (128.0 * (x + 3.0 * x * x * x) - 20.0) / (128.0 * (1.0 + 9.0 * x * x));
   EXPECT_NEAR(out.history.last("x"), x, 1e-12);
   EXPECT_LE(out.summary.steps.newton_iterations, 6);
+}
+
+/// A mass on a rail along x from 1 m, and a spring of rest length 0.5 m with the given members.
+std::string on_rail(const std::string& spring, double v0, double end, const std::string& signals = "") {
+  return R"-({"parameters": {"m": 2},
+  "analysis": {"kind": "dynamic", "end_time": )-" +
+         support::text(end) + R"-(, "step_size": 0.01},
+  "bodies": [{"name": "mass", "mass": {"expression": "m"}, "inertia": [0.5, 0.5, 0.5], "position": [1, 0, 0]}],
+  "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "mass", "axis": [1, 0, 0]}],
+  "initial_velocities": [{"of": "mass", "velocity": [)-" +
+         support::text(v0) + R"-(, 0, 0]}],
+  "springs": [{"name": "spring", "first": {"to": "ground", "position": [0, 0, 0]}, "second": "mass", )-" +
+         spring + R"-(}],
+  "signals": [)-" +
+         signals + R"-(],
+  "sensors": [{"name": "x", "kind": "joint_displacement", "joint": "rail"},
+    {"name": "v", "kind": "joint_rate", "joint": "rail"}, {"name": "strain", "kind": "strain_energy"},
+    {"name": "all", "kind": "total_energy"}]})-";
+}
+
+// A cubic spring, m s'' = -k s^3 from s = A at rest: after a quarter of the period, K(1/sqrt 2) / (A sqrt(k/m)), the
+// spring is free, and all of k A^4 / 4 is motion.
+TEST(DrivenParts, a_cubic_spring_keeps_its_period_and_its_energy) {
+  const double A = 0.5, m = 2.0, root = std::comp_ellint_1(std::sqrt(0.5)) / A, k = m * root * root;  // ends at 1 s
+  const double v = -A * A * std::sqrt(0.5 * k / m);
+  const std::string cube =
+      R"-("rest_length": 0.5, "force_law": {"expression": ")-" + support::text(k) + "*stretch^3\"}";
+  const std::string of_length =
+      R"-("force_law": {"expression": "0.5*m*)-" + support::text(root * root) + "*2*(length - 0.5)^3\"}";
+  for (const std::string& spring : {cube, of_length})
+    expect_order(on_rail(spring, 0.0, 1.0), 0.005, {{"x", -A}, {"v", v}});
+  const Outcome out = run_ok(scene_of(on_rail(cube, 0.0, 1.0), {"/analysis/step_size=1e-3"}));
+  const std::vector<double> strain = out.history.of("strain");
+  EXPECT_NEAR(strain.front(), 0.25 * k * std::pow(A, 4), 1e-12 * strain.front());
+  EXPECT_LT(strain.back(), 1e-12 * strain.front());
+  EXPECT_LT(out.summary.checks.energy_balance, 2e-5 * out.summary.checks.energy_scale);
+}
+
+// A damper of force c v |v|:  v = v0 / (1 + w t), x = m / c ln(1 + w t), w = c v0 / m.
+TEST(DrivenParts, a_quadratic_damper_slows_a_mass_down) {
+  const double w = 1.5 * 3.0 / 2.0, end = 1.0;
+  expect_order(on_rail(R"-("force_law": {"expression": "1.5*rate*abs(rate)"})-", 3.0, end), 0.005,
+               {{"x", 2.0 / 1.5 * std::log(1.0 + w * end)}, {"v", 3.0 / (1.0 + w * end)}});
+}
+
+// A stop of which half a period is spent in contact: it gives back the speed, and a table is the spring of its slope.
+TEST(DrivenParts, a_one_sided_table_gives_back_the_speed) {
+  const double k = 800.0, gap = 0.4, v = 2.0, w = std::sqrt(k / 2.0), contact = 3.14159265358979324 / w;
+  const double end = gap / v + contact + 0.1;
+  const Outcome out =
+      run_ok(scene_of(on_rail(R"-("force_law": {"kind": "table", "times": [0, 0.6], "values": [-480, 0]})-", -v, end),
+                      {"/analysis/step_size=1e-4", "/analysis/spectral_radius=0.99"}));
+  EXPECT_NEAR(out.history.last("v"), v, 1e-4);
+  EXPECT_NEAR(out.history.last("x"), -gap + v * 0.1, 1e-4);
+  const std::vector<double> x = out.history.of("x"), strain = out.history.of("strain");
+  EXPECT_NEAR(*std::min_element(x.begin(), x.end()), -gap - v / w, 1e-6);
+  EXPECT_NEAR(*std::max_element(strain.begin(), strain.end()), 0.5 * 2.0 * v * v, 1e-4);
+  EXPECT_LT(out.summary.checks.energy_balance, 1e-4 * out.summary.checks.energy_scale);
+}
+
+// A formula of length and rate that is linear is a spring with a damper: motion, strain energy, balance. One that names
+// a signal has the same force, and its work is counted.
+TEST(DrivenParts, a_linear_formula_is_a_spring_with_a_damper) {
+  const char* const one = R"-({"name": "one", "kind": "time", "law": 1})-";
+  const auto run = [&](const std::string& spring) {
+    return run_ok(scene_of(on_rail(spring, 1.0, 1.0, one), {"/analysis/tolerance=1e-12", "/analysis/step_size=2e-3"}));
+  };
+  const Outcome plain = run(R"-("rest_length": 0.5, "stiffness": 90, "damping": 3)-"),
+                driven = run(R"-("rest_length": 0.5, "force_law": {"expression": "45*m*stretch + 3*rate"})-"),
+                mixed = run(R"-("rest_length": 0.5, "stiffness": 40, "damping": 1,
+                               "force_law": {"expression": "50*(length - 0.5) + rate*m"})-"),
+                named = run(R"-("rest_length": 0.5, "force_law": {"expression": "one*90*stretch + 3*rate"})-");
+  for (const Outcome* out : {&driven, &mixed, &named})
+    for (const char* column : {"x", "v"})
+      EXPECT_NEAR(out->history.last(column), plain.history.last(column), 1e-10) << column;
+  for (const Outcome* out : {&driven, &mixed}) {
+    EXPECT_NEAR(out->history.last("strain"), plain.history.last("strain"), 1e-9);
+    EXPECT_NEAR(out->history.last("all"), plain.history.last("all"), 1e-9);
+  }
+  EXPECT_EQ(named.history.last("strain"), 0.0);
+  for (const Outcome* out : {&plain, &driven, &mixed, &named})
+    EXPECT_LT(out->summary.checks.energy_balance, 2e-4 * out->summary.checks.energy_scale);
+}
+
+// A pendulum of a beam on a rubber cord in space, and with the cord in the ground of a turning frame: the strain energy
+// of the cord is the integral of its table.
+TEST(DrivenParts, a_cord_stores_the_integral_of_its_table) {
+  const Outcome out = run_ok(scene_of(R"-({"gravity": [0, 0, -9.81],
+  "analysis": {"kind": "dynamic", "end_time": 0.5, "step_size": 1e-3, "tolerance": 1e-11, "spectral_radius": 0.95},
+  "bodies": [{"name": "bob", "mass": 2, "inertia": [0.5, 0.6, 0.7], "position": [0.3, 0.2, -1]}],
+  "springs": [{"name": "cord", "first": "ground", "second": {"to": "bob", "position": [0.1, 0, 0.2]},
+    "force_law": {"kind": "table", "times": [0, 0.7, 0.9, 1.4], "values": [0, 0, 30, 70], "interpolation": "monotone"}}],
+  "initial_velocities": [{"of": "bob", "velocity": [0.5, 1, 0], "angular_velocity": [1, -2, 0.5]}],
+  "sensors": [{"name": "end", "kind": "position", "at": {"to": "bob", "position": [0.1, 0, 0.2]}},
+    {"name": "strain", "kind": "strain_energy"}]})-"));
+  const laws::Law energy =
+      laws::make_table({0, 0.7, 0.9, 1.4}, {0, 0, 30, 70}, laws::Interpolation::monotone).integral(0.0);
+  const double length = std::hypot(out.history.last("end.x"), out.history.last("end.y"), out.history.last("end.z"));
+  const double rest = std::hypot(0.4, 0.2, 0.8);  // where the energy is 0: the length at the start
+  EXPECT_NEAR(out.history.last("strain"), energy.at(length).value - energy.at(rest).value, 1e-9);
+  EXPECT_GT(std::abs(out.history.last("strain")), 0.1);
+  EXPECT_LT(out.summary.checks.energy_balance, 1e-4 * out.summary.checks.energy_scale);
+}
+
+// Statics against a stop behind a gap: 100 N on a spring of 50 N/m, and 500 (s - 0.8)^1.5 beyond 0.8 m.
+TEST(DrivenParts, statics_press_a_stop_behind_a_gap) {
+  const Outcome out = run_ok(scene_of(R"-({"analysis": {"kind": "static", "tolerance": 1e-12, "load_steps": 4},
+  "bodies": [{"name": "mass", "mass": 2, "inertia": [0.5, 0.5, 0.5], "position": [1, 0, 0]}],
+  "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "mass", "axis": [1, 0, 0]}],
+  "springs": [{"name": "spring", "first": "ground", "second": "mass", "stiffness": 50, "rest_length": 1,
+    "force_law": {"expression": "500*max(0, stretch - 0.8)^1.5"}}],
+  "loads": [{"at": "mass", "force": [100, 0, 0]}],
+  "sensors": [{"name": "x", "kind": "joint_displacement", "joint": "rail"}, {"name": "strain", "kind": "strain_energy"}]})-"));
+  double x = 1.0;
+  for (int k = 0; k < 50; ++k)
+    x -= (50.0 * x + 500.0 * std::pow(x - 0.8, 1.5) - 100.0) / (50.0 + 750.0 * std::sqrt(x - 0.8));
+  EXPECT_NEAR(out.history.last("x"), x, 1e-10);
+  EXPECT_NEAR(out.history.last("strain"), 25.0 * x * x + 200.0 * std::pow(x - 0.8, 2.5), 1e-9);
 }
 
 }  // namespace
