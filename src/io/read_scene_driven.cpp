@@ -1,6 +1,7 @@
 /// Reads what signals drive and what is made of other parts of a scene: springs whose length or strength changes, and
 /// gravity as weights.
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "bough/io/number_text.hpp"
@@ -205,6 +206,72 @@ void Converter::driven_spring(const Value& v, const std::string& at, const scene
   }
   add(scene.joints, "joints", std::move(strut), at);
   for (scene::Signal& signal : made) add(scene.signals, "signals", std::move(signal), at);
+}
+
+/// The joint of this name, which was read before; nullptr, told, if there is none.
+scene::Joint* Converter::joint_to_drive(const std::string& name, const std::string& at) {
+  std::vector<std::string> names;
+  for (scene::Joint& joint : scene.joints) {
+    if (joint.name == name) return &joint;
+    names.push_back(joint.name);
+  }
+  left_out_ |= std::find(defective.begin(), defective.end(), name) != defective.end();
+  const std::string near = scene::nearest_name(name, names);
+  if (!left_out_) fault(at, "no joint has this name", near.empty() ? "" : "did you mean \"" + near + "\"?");
+  return nullptr;
+}
+
+/// A servo: an effort T = limit y along a coordinate q, with the state
+///   lag y' = limited((position_gain (target - q) + rate_gain (target_rate - q')) / limit) - y,   |limited| <= 1.
+/// y stays within its limits, so that nothing winds up, and errors of y count relative to the limit.
+void Converter::actuator(const Value& v, const std::string& at) {
+  const std::string name = v.find("name")->text, stem = name + "_";
+  scene::Joint* joint = joint_to_drive(v.find("joint")->text, at + "/joint");
+  if (joint == nullptr) return;
+  const scene::JointType& type = scene::type_of(joint->kind);
+  std::string coordinate = text_or(v, "coordinate");
+  if (coordinate.empty() && type.coordinates.size() == 1) coordinate = type.coordinates.front().name;
+  const scene::JointCoordinate* along = type.coordinate(coordinate);
+  if (along == nullptr) {
+    std::string known;
+    for (const scene::JointCoordinate& c : type.coordinates) known += (known.empty() ? "" : " or ") + c.name;
+    return fault(at + (v.find("coordinate") == nullptr ? "/joint" : "/coordinate"),
+                 "a " + type.name + " joint has no such coordinate that a servo could drive",
+                 known.empty() ? "" : "\"coordinate\" is " + known);
+  }
+  constexpr std::size_t most_forces = 4;
+  if (joint->forces.size() == most_forces)
+    return fault(at + "/joint", "the joint has " + std::to_string(most_forces) + " forces already, and takes no more",
+                 "put springs or efforts along one coordinate together");
+  const double limit = v.find("limit")->number, start = v.find("start")->number;
+  if (std::abs(start) > limit) fault(at + "/start", "lies beyond the limit of " + rounded_text(limit, 6));
+  scene::Signal way, rate, state, effort;
+  const auto reading = [&](scene::Signal& s, SignalKind kind, const char* end) {
+    s.kind = kind;
+    s.name = unused_signal_name(stem + end);
+    s.joint = joint->name;
+    s.coordinate = coordinate;
+  };
+  reading(way, along->is_length() ? SignalKind::joint_displacement : SignalKind::joint_angle, "coordinate");
+  reading(rate, SignalKind::joint_rate, "rate");
+  const std::string target = signal_of(*v.find("target"), at + "/target", stem + "target"),
+                    target_rate = signal_of(*v.find("target_rate"), at + "/target_rate", stem + "target_rate");
+  if (faults.size() != faults_before_) return;
+  state.kind = SignalKind::state;
+  state.name = unused_signal_name(stem + "of_limit");
+  state.inputs = {state.name, way.name, rate.name, target};
+  if (target_rate != target) state.inputs.push_back(target_rate);
+  const std::string wanted = in_brackets(v.find("position_gain")->number) + "*(" + target + " - " + way.name + ") + " +
+                             in_brackets(v.find("rate_gain")->number) + "*(" + target_rate + " - " + rate.name + ")";
+  state.formula = laws::Formula("(min(max((" + wanted + ")/" + in_brackets(limit) + ", -1), 1) - " + state.name + ")/" +
+                                    in_brackets(v.find("lag")->number),
+                                state.inputs);
+  state.start = start / limit;
+  effort.name = name;
+  effort.inputs = {state.name};
+  effort.formula = laws::Formula(in_brackets(limit) + "*" + state.name, effort.inputs);
+  joint->forces.push_back({coordinate, 0.0, 0.0, 0.0, {}, name});
+  for (scene::Signal* signal : {&way, &rate, &state, &effort}) add(scene.signals, "signals", std::move(*signal), at);
 }
 
 /// Gravity whose factor or components signals give: it is made of weights (weigh).

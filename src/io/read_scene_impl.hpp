@@ -93,6 +93,8 @@ class Converter : private ValueConverter {
   void need_signal(const std::string& name, const std::string& at);
   std::string signal_of(const Value& v, const std::string& at, const std::string& name);
   void driven_spring(const Value& v, const std::string& at, const scene::Spring& s);
+  void actuator(const Value& v, const std::string& at);
+  scene::Joint* joint_to_drive(const std::string& name, const std::string& at);
   void driven_gravity(const Value& v);
   void weigh();
 

@@ -353,6 +353,7 @@ void Converter::convert() {
   warn_of_thick_beams();
   each("joints", &Converter::joint);
   each("springs", &Converter::spring);
+  each("actuators", &Converter::actuator);
   each("bushings", &Converter::bushing);
   each("loads", &Converter::load);
   each("motions", &Converter::motion);

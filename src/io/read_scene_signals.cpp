@@ -17,7 +17,7 @@ using scene::SignalKind;
 
 /// Names of all signals of the document that formulas can call.
 void Converter::find_signal_names() {
-  for (const char* key : {"signals"}) {
+  for (const char* key : {"signals", "actuators"}) {
     const Value* list = root_.find(key);
     if (list == nullptr || !list->is(JsonKind::array)) continue;
     for (const Value& item : list->items)

@@ -181,6 +181,21 @@ void add_joints(RuleTable& t) {
        may("damping", not_negative(""), "[N s/m].", "0")});
   spring.at_most_one = {{"rest_length", "rest_law"}, {"force_law", "rest_law"}, {"force_law", "stiffness_factor"}};
   t.named["spring"] = made(std::move(spring));
+  t.named["actuator"] = made(object_of_kind(
+      {"servo"},
+      "A servo along a free coordinate q of a joint: lag T' + T = limited(position_gain (target - q) + rate_gain "
+      "(target_rate - q')), T its torque or force on the second. What it is told is limited before the lag, so that T "
+      "stays within the limit and leaves it as soon as the sum of gains does. In statics T is that sum, limited.",
+      {need("name", name_rule("A word of formulas: a letter or _, then letters, digits and _."),
+            "Its name, which is that of the signal T too."),
+       need("joint", reference, "The joint; a strut for one between two points."), may("coordinate", coordinate, which),
+       may("target", named_rule("law_or_signal"), "Wanted coordinate [rad] or [m].", "0"),
+       may("target_rate", named_rule("law_or_signal"), "Wanted rate [rad/s] or [m/s].", "0"),
+       may("position_gain", not_negative(""), "[N m/rad] or [N/m].", "0"),
+       may("rate_gain", not_negative(""), "[N m s/rad] or [N s/m].", "0"),
+       need("limit", positive(""), "Largest torque [N m] or force [N]."),
+       need("lag", positive(""), "Time constant [s]."),
+       may("start", any_number, "T at the start of dynamics [N m] or [N]; within the limit.", "0")}));
   const RuleRef six = choice_rule("", {named_rule("diagonal6"), named_rule("matrix6")});
   t.named["bushing"] =
       made(object_of("Elastic and viscous coupling of all relative motions of two frames, in the axes of the first; at "
@@ -376,6 +391,7 @@ RuleTable make_table() {
                                     list("beams", "beam", "Beams."),
                                     list("joints", "joint", "Joints."),
                                     list("springs", "spring", "Springs and dampers between points."),
+                                    list("actuators", "actuator", "Servos with a lag and a limit."),
                                     list("bushings", "bushing", "Bushings."),
                                     list("loads", "load", "Loads."),
                                     list("motions", "motion", "Prescribed motions."),

@@ -179,6 +179,14 @@ const Bad frame_cases[] = {
      "no signal has this name"},
     {"{ \"name\": \"coil\",", "@{ \"name\": \"coil\", \"rest_length\": 1, \"rest_law\": 1,", "/springs/0",
      "takes only one of the keys"},
+    {"\"motions\": [ ],",
+     "\"motions\": [ ], \"actuators\": [ { \"name\": \"a\", \"kind\": \"servo\", \"joint\": @\"pinn\", \"limit\": 1, "
+     "\"lag\": 1 } ],",
+     "/actuators/0/joint", "no joint has this name"},
+    {"\"motions\": [ ],",
+     "\"motions\": [ ], \"actuators\": [ { \"name\": \"a\", \"kind\": \"servo\", \"joint\": \"hinge\", \"limit\": 1, "
+     "\"lag\": 1, \"start\": @2 } ],",
+     "/actuators/0/start", "beyond the limit of 1"},
     {"\"stiffness\": 10 }", "\"force_law\": { \"expression\": @\"9*stretch + 2*rat\" } }",
      "/springs/0/force_law/expression", "it names length, stretch and rate of the spring"},
     {"\"stiffness\": 10 }", "\"force_law\": { \"expression\": @\"9*t\" } }", "/springs/0/force_law/expression",
