@@ -42,14 +42,23 @@ void write_steps(JsonText& json, const records::Summary& summary) {
   json.member("memory_peak_bytes", static_cast<long long>(summary.memory_peak_bytes));
 }
 
-void write_checks(JsonText& json, const records::Checks& checks) {
+/// Only a motion that is integrated has balances of energy and momentum over time.
+bool has_balances(const records::Summary& summary) {
+  return std::find(summary.options.begin(), summary.options.end(),
+                   std::pair<std::string, std::string>("analysis/kind", "\"dynamic\"")) != summary.options.end();
+}
+
+void write_checks(JsonText& json, const records::Summary& summary) {
+  const records::Checks& checks = summary.checks;
   json.key("checks");
   json.begin_object();
   if (checks.evaluated) {
-    json.member("energy_balance", checks.energy_balance);
-    json.member("numerical_dissipation", checks.numerical_dissipation);
-    json.member("energy_scale", checks.energy_scale);
-    json.member("momentum_balance", checks.momentum_balance);
+    if (has_balances(summary)) {
+      json.member("energy_balance", checks.energy_balance);
+      json.member("numerical_dissipation", checks.numerical_dissipation);
+      json.member("energy_scale", checks.energy_scale);
+      json.member("momentum_balance", checks.momentum_balance);
+    }
     json.member("constraint_violation_position", checks.constraint_violation_position);
     json.member("constraint_violation_velocity", checks.constraint_violation_velocity);
   }
@@ -326,7 +335,7 @@ std::string summary_text(const records::Summary& summary, std::string_view versi
   }
   json.end_object();
   write_steps(json, summary);
-  write_checks(json, summary.checks);
+  write_checks(json, summary);
   if (summary.follows_path) write_limit_points(json, summary.limit_points);
   if (summary.follows_path) write_bifurcations(json, summary.bifurcations);
   if (summary.stability) write_stability(json, *summary.stability);

@@ -55,14 +55,19 @@ void Account::watch_floor(const step::StepReport& report) {
   unbalanced_force_ = std::max({unbalanced_force_, r.force, r.moment / arm});
 }
 
-void Account::watch_dependent_rows(double time) {
-  const int deficiency = system_.linear().solver().last_status().deficiency;
+template <class Solver>
+void Account::note_rank(double time, const Solver& solver) {
+  const int deficiency = solver.last_status().deficiency;
+  if (deficiency < 0) return;  // unknown
   least_dependent_rows_ = std::min(least_dependent_rows_, deficiency);
   if (deficiency <= dependent_rows_) return;
   dependent_rows_ = deficiency;
   dependent_since_ = time;
-  not_unique_ = dependent_groups_text(system_);
+  not_unique_ = dependent_groups_text(system_, solver.blocks_not_unique());
 }
+
+void Account::watch_dependent_rows(double time) { note_rank(time, system_.linear().solver()); }
+void Account::watch_dependent_rows(double time, const solve::Hierarchical& solver) { note_rank(time, solver); }
 
 /// Rows that are dependent throughout the run do not affect the motion. If rows become dependent only at times, the
 /// rank of the constraints drops there: the mechanism then has more degrees of freedom than elsewhere, and the

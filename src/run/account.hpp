@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bough/records/run.hpp"
+#include "bough/solve/hierarchical.hpp"
 #include "bough/step/advance.hpp"
 #include "bough/step/system.hpp"
 
@@ -36,6 +37,8 @@ class Account {
   /// Records the largest and the smallest rank deficiency of the factorizations of accepted steps, and the reactions
   /// that are not unique at the largest.
   void watch_dependent_rows(double time);
+  /// The same by the factorization of another solver, for runs whose own does not know the rank.
+  void watch_dependent_rows(double time, const solve::Hierarchical& solver);
   int dependent_rows() const { return dependent_rows_; }
 
   /// Notes at the end of a run: on constraint rows that depend on others; then on steps and factors.
@@ -46,6 +49,8 @@ class Account {
 
  private:
   void watch_floor(const step::StepReport& report);
+  template <class Solver>
+  void note_rank(double time, const Solver& solver);
 
   const step::System& system_;
   records::Summary summary_;

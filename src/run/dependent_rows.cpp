@@ -27,7 +27,7 @@ std::size_t root_of(std::vector<std::size_t>& parent, std::size_t i) {
 
 }  // namespace
 
-std::string dependent_groups_text(const step::System& system) {
+std::string dependent_groups_text(const step::System& system, std::span<const int> blocks) {
   const plan::Plan& plan = system.plan();
   std::vector<std::size_t> joints, parent(plan.nodes.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -40,7 +40,7 @@ std::string dependent_groups_text(const step::System& system) {
                        });
     return node;
   };
-  for (const int block : system.linear().solver().blocks_not_unique()) {
+  for (const int block : blocks) {
     const int j = system.linear().owners().joint(block);
     if (j < 0) continue;
     joints.push_back(static_cast<std::size_t>(j));

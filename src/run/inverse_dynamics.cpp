@@ -1,6 +1,7 @@
 /// Inverse dynamics: drives prescribe the whole motion, and what drives it is evaluated.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "analysis.hpp"
 #include "bough/io/number_text.hpp"
@@ -122,22 +123,47 @@ class InverseDynamics final : public Analysis {
     const step::UnknownPlaces& places = system_.places();
     const auto rows = static_cast<long>(places.multipliers().size());
     const long of_nodes = static_cast<long>(places.size() - places.signals().size()) - rows;
-    const long left = of_nodes - (rows - system_.linear().solver().last_status().deficiency);
+    const long left = of_nodes - (rows - dependent_rows());
     if (left > 0)
       return fail("at time " + io::rounded_text(state_.time, 6) + " drives and joints leave " + std::to_string(left) +
                   " motion(s) free: the mechanism passes a singular position there, from which it can go on in more "
                   "than one way");
-    if (interval > 0.0)
-      account().count(reached(), state_);
-    else
+    if (interval > 0.0) account().count(reached(), state_);
+    if (knows_rank())
       account().watch_dependent_rows(state_.time);
+    else
+      account().watch_dependent_rows(state_.time, *of_rank_);
     last_step_ = interval;
     record(0, is_done());
     if (is_done()) recording_.end_stretch(state_);
     return true;
   }
 
-  long intervals_, next_ = 1;  ///< of the step size up to the end, and the end of the next one
+  bool knows_rank() const { return system_.linear().solver().last_status().deficiency >= 0; }
+
+  /// Number of constraint rows that depend on others. A solver that regularises singular matrices does not know it: then
+  /// the same matrix is factored in the form that does.
+  int dependent_rows() {
+    if (knows_rank()) return system_.linear().solver().last_status().deficiency;
+    const blocks::BlockGraph& graph = plan_.graph;
+    if (!of_rank_)
+      of_rank_ = std::make_shared<solve::Hierarchical>(graph, system_.linear().tree(),
+                                                       solve::SolveOptions{.check = solve::SolveCheck::none});
+    for (int e = 0; e < graph.num_elements(); ++e) {
+      std::size_t n = 0;
+      for (auto k = graph.element_begin[static_cast<std::size_t>(e)];
+           k < graph.element_begin[static_cast<std::size_t>(e) + 1]; ++k)
+        n += static_cast<std::size_t>(
+            graph.block_size[static_cast<std::size_t>(graph.element_blocks[static_cast<std::size_t>(k)])]);
+      const solve::ConstElementView from = system_.linear().solver().element(e);
+      const solve::ElementView to = of_rank_->element(e);
+      for (std::size_t i = 0; i < n * n; ++i) to[static_cast<std::int64_t>(i)] = from[static_cast<std::int64_t>(i)];
+    }
+    return of_rank_->factor(system_.walker()).deficiency;
+  }
+
+  std::shared_ptr<solve::Hierarchical> of_rank_;  ///< made where it is needed; its contents are scratch
+  long intervals_, next_ = 1;                     ///< of the step size up to the end, and the end of the next one
   std::vector<double> stops_;
   step::State tried_;
   std::vector<double> increments_;

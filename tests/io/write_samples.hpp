@@ -47,7 +47,8 @@ inline records::Summary sample_summary() {
   summary.scene = "sample";
   summary.header.columns = {"tip.x", "tip.y", "energy"};
   summary.final_values = {1.0, -0.1, 3.5};
-  summary.options = {{"analysis/step_size", "0.001"}, {"analysis/newton", "\"full\""}};
+  summary.options = {
+      {"analysis/kind", "\"dynamic\""}, {"analysis/step_size", "0.001"}, {"analysis/newton", "\"full\""}};
   summary.expected = {{"tip.x", 1.0, 1.0, 1e-9, true, "by hand"}, {"tip.y", -0.1, -0.2, 1e-9, false, ""}};
   summary.steps = {10, 1, 33, 30};
   return summary;

@@ -84,6 +84,12 @@ TEST(Summary, leaves_out_checks_that_were_not_made_and_values_that_were_not_reac
   EXPECT_EQ(json.find("checks")->find("energy_balance"), nullptr);
   EXPECT_EQ(json.find("checks")->find("constraint_violation_position"), nullptr);
   EXPECT_NE(json.find("checks")->find("linear_backward_error_max"), nullptr);
+  summary.checks.evaluated = true;
+  summary.options = {{"analysis/kind", "\"inverse_dynamics\""}};
+  const JsonValue still = parsed(summary_text(summary, "1"));  // nothing is integrated, and nothing balances over time
+  EXPECT_EQ(still.find("checks")->find("energy_balance"), nullptr);
+  EXPECT_EQ(still.find("checks")->find("momentum_balance"), nullptr);
+  EXPECT_NE(still.find("checks")->find("constraint_violation_position"), nullptr);
   const JsonValue& figure = *json.find("expected")->find("a.x");
   EXPECT_FALSE(figure.find("reached")->truth);
   EXPECT_EQ(figure.find("value"), nullptr);
