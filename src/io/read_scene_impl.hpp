@@ -80,6 +80,7 @@ class Converter : private ValueConverter {
   void signal_surface(const Value& v, const std::string& at, scene::Signal& s);
   std::string unused_signal_name(std::string name);
   void take_in_units(const Value& v, const std::string& at, double nominal, scene::Signal& s);
+  void reaction(const Value& component, const std::string& at, scene::Signal s);
   void signal(const Value& v, const std::string& at);
   laws::Law law_or_signal(const Value& v, const std::string& at, std::string& signal);
 

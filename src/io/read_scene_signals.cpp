@@ -1,5 +1,7 @@
 /// Reads signals: numbers that change with the motion.
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "bough/io/number_text.hpp"
 #include "bough/laws/formula.hpp"
@@ -12,6 +14,14 @@ namespace bough::io {
 namespace {
 
 using scene::SignalKind;
+
+bool has_item_named(const JsonValue* list, const std::string& name) {
+  return list != nullptr && list->is(JsonKind::array) &&
+         std::any_of(list->items.begin(), list->items.end(), [&name](const JsonValue& item) {
+           const JsonValue* of_item = item.is(JsonKind::object) ? item.find("name") : nullptr;
+           return of_item != nullptr && of_item->is(JsonKind::string) && of_item->text.str() == name;
+         });
+}
 
 }  // namespace
 
@@ -98,13 +108,33 @@ void Converter::take_in_units(const Value& v, const std::string& at, double nomi
   add(scene.signals, "signals", std::move(in_units), at);
 }
 
+/// A component of a reaction is the multiplier of a row with the sign changed, as an effort is; where its own sign is
+/// the other one, a formula turns it.
+void Converter::reaction(const Value& component, const std::string& at, scene::Signal s) {
+  s.kind = SignalKind::joint_effort;
+  s.coordinate = component.text;
+  const auto joint = std::find_if(scene.joints.begin(), scene.joints.end(),
+                                  [&s](const scene::Joint& other) { return other.name == s.joint; });
+  const auto row =
+      joint == scene.joints.end() ? std::nullopt : scene::reaction_row(scene::type_of(joint->kind), s.coordinate);
+  if (row && row->sign > 0.0) {
+    scene::Signal turned;
+    turned.name = std::exchange(s.name, unused_signal_name(s.name + "_turned"));
+    turned.inputs = {s.name};
+    turned.formula = laws::Formula("-" + s.name, turned.inputs);
+    add(scene.signals, "signals", std::move(turned), at);
+  }
+  add(scene.signals, "signals", std::move(s), at);
+}
+
 void Converter::signal(const Value& v, const std::string& at) {
   scene::Signal s;
   s.name = v.find("name")->text;
   if (const Value* numbers = root_.find("parameters"); numbers != nullptr && numbers->find(s.name) != nullptr)
     fault(at + "/name", "a parameter has this name, and formulas would take its number");
-  s.kind = scene::signal_kind_named(v.find("kind")->text.str()).value();  // the schema takes no other names
   s.joint = text_or(v, "joint");
+  if (const Value* component = v.find("component")) return reaction(*component, at, std::move(s));
+  s.kind = scene::signal_kind_named(v.find("kind")->text.str()).value();  // the schema takes no other names
   s.coordinate = text_or(v, "coordinate");
   s.spring = text_or(v, "spring");
   if (s.kind == SignalKind::surface)
@@ -116,6 +146,24 @@ void Converter::signal(const Value& v, const std::string& at) {
     s.at = attachment(*where, at + "/at");
     s.axis = v.find("axis")->text.str().front() - 'x';
     s.frame = frame_name(v);
+  }
+  const auto is_strut_of_spring = [&s](const scene::Joint& joint) { return joint.name == s.spring; };
+  if (s.kind == SignalKind::spring_tension && has_item_named(root_.find("springs"), s.spring) &&
+      std::any_of(scene.joints.begin(), scene.joints.end(), is_strut_of_spring)) {
+    // A spring with more than constants: its tension is minus all that acts along its strut.
+    const auto known = std::find_if(scene.signals.begin(), scene.signals.end(), [&s](const scene::Signal& other) {
+      return other.kind == SignalKind::joint_effort && other.joint == s.spring;
+    });
+    scene::Signal effort;
+    effort.kind = SignalKind::joint_effort;
+    effort.joint = s.spring;
+    effort.name = known != scene.signals.end() ? known->name : unused_signal_name(s.name + "_effort");
+    s.kind = SignalKind::formula;
+    s.spring.clear();
+    s.inputs = {effort.name};
+    s.formula = laws::Formula("-" + effort.name, s.inputs);
+    if (known == scene.signals.end()) add(scene.signals, "signals", std::move(effort), at);
+    return add(scene.signals, "signals", std::move(s), at);
   }
   if (const Value* given = v.find("law")) s.law = law(*given, at + "/law");
   if (s.kind == SignalKind::formula || s.kind == SignalKind::state) signal_formula(v, at, s);

@@ -27,7 +27,16 @@ void add_signal_rules(RuleTable& t) {
            "efforts, a drive, a rod.",
            {name, need("joint", reference, "The joint."),
             coordinate("Along which. Default: the only coordinate that the joint has.")})),
-       made(object_of_kind({"spring_tension"}, "Tension of a spring with its damper [N].",
+       made(object_of_kind(
+           {"joint_reaction"},
+           "Component of the reaction of the first on the second in what the joint holds, about the second's joint "
+           "frame "
+           "and in the axes of the first's [N], [N m].",
+           {name, need("joint", reference, "The joint."),
+            need("component", word_rule("", {"fx", "fy", "fz", "mx", "my", "mz"}),
+                 "Force along or moment about an axis of the first's joint frame, along which or about which the joint "
+                 "leaves nothing free.")})),
+       made(object_of_kind({"spring_tension"}, "Tension of a spring, with its damper and all else that it has [N].",
                            {name, need("spring", reference, "The spring.")})),
        made(object_of_kind({"position", "velocity"},
                            "Component of a point's position [m] or velocity [m/s], seen from a frame; in statics the "

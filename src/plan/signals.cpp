@@ -97,6 +97,14 @@ void Builder::add_signals() {
     if (s.kind == scene::SignalKind::joint_effort) {
       const auto joint = std::find_if(scene.joints.begin(), scene.joints.end(),
                                       [&](const scene::Joint& j) { return j.name == s.joint; });
+      if (scene::reads_reaction(s)) {
+        p.joint_name = s.joint;
+        p.reading.ports[0] = port_at(joint->first);
+        p.reading.ports[1] = port_at(joint->second);
+        p.row = scene::reaction_row(scene::type_of(joint->kind), s.coordinate)->row;
+        plan.signals_read_multipliers = true;
+        continue;
+      }
       const auto index = static_cast<std::size_t>(joint - scene.joints.begin());  // these come first in Plan::joints
       read_effort(*joint,
                   array_of<elements::Joint>(plan.elements)[static_cast<std::size_t>(plan.joints[index].element)],

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "bough/scene/signals.hpp"
 #include "plan_builder.hpp"
 #include "sets.hpp"
 
@@ -89,6 +90,8 @@ class Welder {
   explicit Welder(Builder& b) : b_(b), plan_(b.plan), parts_(b.plan.nodes.size()), loops_(b.plan.nodes.size()) {
     for (const scene::Sensor& s : b.scene.sensors)
       if (!s.joint.empty()) asked_.insert(s.joint);
+    for (const scene::Signal& s : b.scene.signals)
+      if (scene::reads_reaction(s)) asked_.insert(s.joint);
     if (asked_.empty()) return;
     loops_ = loops_of_joints(plan_);
     for (std::size_t j = 0; j < plan_.joints.size(); ++j)

@@ -39,6 +39,15 @@ void check_joint_of(ProblemList& list, std::size_t i, const Signal& s) {
                                   [&](const Joint& j) { return j.name == s.joint; });
   if (joint == list.scene.joints.end()) return;
   const JointType& type = type_of(joint->kind);
+  if (reads_reaction(s)) {
+    if (!reaction_row(type, s.coordinate))
+      list.add(
+          "signals", i, "component", s.coordinate,
+          "no row of a " + type.name + " joint alone holds this component of its reaction",
+          "the force or torque along a free coordinate is a signal of kind \"joint_effort\"; a sensor measures all "
+          "components");
+    return;
+  }
   if (coordinate_of(s, type) == nullptr)
     list.add("signals", i, "joint", s.joint,
              "a " + type.name + " joint has no such coordinate that a signal could read");

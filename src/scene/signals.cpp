@@ -69,6 +69,41 @@ const JointCoordinate* coordinate_of(const Signal& signal, const JointType& join
   return length == joint.coordinates.end() ? nullptr : &*length;
 }
 
+namespace {
+
+constexpr std::array<std::string_view, 6> components{"fx", "fy", "fz", "mx", "my", "mz"};
+
+/// Whether axis j of the second frame keeps the direction of that of the first: two rows hold it, or all axes are held.
+bool is_aligned(const JointType& joint, int j) {
+  int of_axis = 0, all = 0;
+  for (const JointRow& row : joint.rows)
+    if (row.kind == motion::RowKind::across) {
+      of_axis += row.axes.j == j ? 1 : 0;
+      ++all;
+    }
+  return of_axis == 2 || all == 3;
+}
+
+}  // namespace
+
+bool reads_reaction(const Signal& signal) {
+  return signal.kind == SignalKind::joint_effort &&
+         std::find(components.begin(), components.end(), signal.coordinate) != components.end();
+}
+
+std::optional<ReactionRow> reaction_row(const JointType& joint, std::string_view component) {
+  const auto* const at = std::find(components.begin(), components.end(), component);
+  const int k = static_cast<int>(at - components.begin());
+  for (std::size_t r = 0; r < joint.rows.size(); ++r) {
+    const JointRow& row = joint.rows[r];
+    const int i = row.axes.i, j = row.axes.j;
+    if (row.kind == motion::RowKind::along && i == k) return ReactionRow{static_cast<int>(r), -1.0};
+    if (row.kind != motion::RowKind::across || k != 6 - i - j || !is_aligned(joint, j)) continue;
+    return ReactionRow{static_cast<int>(r), (j + 1) % 3 == i ? -1.0 : 1.0};  // e_j x e_i = e_k or -e_k
+  }
+  return std::nullopt;
+}
+
 bool reads_joint(SignalKind kind) { return kind <= SignalKind::joint_effort; }
 bool reads_point(SignalKind kind) { return kind == SignalKind::position || kind == SignalKind::velocity; }
 
@@ -106,6 +141,7 @@ int level_of_reading(const Scene& scene, const Signal& s) {
     default:
       return -1;
   }
+  if (reads_reaction(s)) return 2;
   const Joint* joint = joint_named(scene, s.joint);
   const JointType* type = joint == nullptr ? nullptr : &type_of(joint->kind);
   const JointCoordinate* coordinate = type == nullptr ? nullptr : coordinate_of(s, *type);

@@ -187,6 +187,10 @@ const Bad frame_cases[] = {
      "\"motions\": [ ], \"actuators\": [ { \"name\": \"a\", \"kind\": \"servo\", \"joint\": \"hinge\", \"limit\": 1, "
      "\"lag\": 1, \"start\": @2 } ],",
      "/actuators/0/start", "beyond the limit of 1"},
+    {"\"motions\": [ ],",
+     "\"motions\": [ ], \"signals\": [ { \"name\": \"a\", \"kind\": \"joint_reaction\", \"joint\": \"hinge\", "
+     "\"component\": @\"mz\" } ],",
+     "/signals/0/component", "no row of a revolute joint alone"},
     {"\"stiffness\": 10 }", "\"force_law\": { \"expression\": @\"9*stretch + 2*rat\" } }",
      "/springs/0/force_law/expression", "it names length, stretch and rate of the spring"},
     {"\"stiffness\": 10 }", "\"force_law\": { \"expression\": @\"9*t\" } }", "/springs/0/force_law/expression",

@@ -190,9 +190,10 @@ std::string on_rail(const std::string& spring, double v0, double end, const std:
          support::text(v0) + R"-(, 0, 0]}],
   "springs": [{"name": "spring", "first": {"to": "ground", "position": [0, 0, 0]}, "second": "mass", )-" +
          spring + R"-(}],
-  "signals": [)-" +
+  "signals": [{"name": "pull", "kind": "spring_tension", "spring": "spring"})-" +
          signals + R"-(],
   "sensors": [{"name": "x", "kind": "joint_displacement", "joint": "rail"},
+    {"name": "pull", "kind": "signal", "signal": "pull"},
     {"name": "v", "kind": "joint_rate", "joint": "rail"}, {"name": "strain", "kind": "strain_energy"},
     {"name": "all", "kind": "total_energy"}]})-";
 }
@@ -240,7 +241,7 @@ TEST(DrivenParts, a_one_sided_table_gives_back_the_speed) {
 // A formula of length and rate that is linear is a spring with a damper: motion, strain energy, balance. One that names
 // a signal has the same force, and its work is counted.
 TEST(DrivenParts, a_linear_formula_is_a_spring_with_a_damper) {
-  const char* const one = R"-({"name": "one", "kind": "time", "law": 1})-";
+  const char* const one = R"-(, {"name": "one", "kind": "time", "law": 1})-";
   const auto run = [&](const std::string& spring) {
     return run_ok(scene_of(on_rail(spring, 1.0, 1.0, one), {"/analysis/tolerance=1e-12", "/analysis/step_size=2e-3"}));
   };
@@ -249,9 +250,11 @@ TEST(DrivenParts, a_linear_formula_is_a_spring_with_a_damper) {
                 mixed = run(R"-("rest_length": 0.5, "stiffness": 40, "damping": 1,
                                "force_law": {"expression": "50*(length - 0.5) + rate*m"})-"),
                 named = run(R"-("rest_length": 0.5, "force_law": {"expression": "one*90*stretch + 3*rate"})-");
-  for (const Outcome* out : {&driven, &mixed, &named})
+  for (const Outcome* out : {&driven, &mixed, &named}) {
     for (const char* column : {"x", "v"})
       EXPECT_NEAR(out->history.last(column), plain.history.last(column), 1e-10) << column;
+    EXPECT_NEAR(out->history.last("pull"), plain.history.last("pull"), 1e-8);
+  }
   for (const Outcome* out : {&driven, &mixed}) {
     EXPECT_NEAR(out->history.last("strain"), plain.history.last("strain"), 1e-9);
     EXPECT_NEAR(out->history.last("all"), plain.history.last("all"), 1e-9);

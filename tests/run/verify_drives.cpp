@@ -350,5 +350,69 @@ TEST(Drives, a_table_of_two_signals_is_the_function_that_it_holds) {
   }
 }
 
+// Every component that a row holds alone is that of the sensor: a body under forces and moments that change, held by a
+// joint whose first frame has the ground's axes, and another body clamped to it; with and without what the plan decides.
+TEST(Drives, a_signal_reads_what_the_sensor_of_a_reaction_measures) {
+  const struct {
+    const char* kind;
+    std::vector<std::string> components;
+  } joints[] = {{"fixed", {"fx", "fy", "fz", "mx", "my", "mz"}},
+                {"revolute", {"fx", "fy", "fz", "mx", "my"}},
+                {"prismatic", {"fx", "fy", "mx", "my", "mz"}},
+                {"cylindrical", {"fx", "fy", "mx", "my"}},
+                {"spherical", {"fx", "fy", "fz"}},
+                {"planar", {"fz", "mx", "my"}}};
+  for (const auto& joint : joints)
+    for (const bool in_plane : {false, true})
+      for (const char* without : {"[]", "[\"planar\", \"translation\", \"line\", \"held\", \"welded\"]"}) {
+        SCOPED_TRACE(std::string(joint.kind) + (in_plane ? " in a plane" : "") + " without " + without);
+        std::string signals, sensors;
+        for (const std::string& c : joint.components) {
+          signals += std::string(signals.empty() ? "" : ", ") + R"-({"name": "s_)-" + c +
+                     R"-(", "kind": "joint_reaction", "joint": "joint", "component": ")-" + c + "\"}";
+          sensors += R"-(, {"name": ")-" + c + R"-(", "kind": "signal", "signal": "s_)-" + c + "\"}";
+        }
+        const std::string force = in_plane ? "[3, -2, 0]" : "[3, -2, 5]", moment = in_plane ? "[0, 0, 2]" : "[1, 3, 2]";
+        const Outcome out =
+            run_ok(scene_of(R"-({"analysis": {"kind": "dynamic", "end_time": 0.3, "step_size": 5e-3},
+  "bodies": [{"name": "a", "mass": 2, "inertia": [0.3, 0.4, 0.5], "center_of_mass": [0.3, 0.1, 0]},
+    {"name": "b", "mass": 1, "inertia": [0.1, 0.2, 0.15], "position": [0.8, 0, 0]}],
+  "joints": [{"name": "joint", "kind": ")-" +
+                                std::string(joint.kind) +
+                                R"-(", "first": {"to": "ground", "rotation": {"axis": [0, 0, 1], "angle": 0}},
+     "second": {"to": "a", "rotation": {"axis": [0, 0, 1], "angle": 0}}, "position": [0, 0, 0]},
+    {"name": "clamp", "kind": "fixed", "first": "a", "second": "b"}],
+  "loads": [{"at": "b", "force": )-" +
+                                force + R"-(, "moment": )-" + moment +
+                                R"-(, "law": {"expression": "2 + sin(9*t)"}}],
+  "signals": [)-" + signals + R"-(],
+  "sensors": [{"name": "all", "kind": "joint_reaction", "joint": "joint"})-" +
+                                sensors + "]}",
+                            {std::string("/without=") + without, "/analysis/tolerance=1e-11"}));
+        for (const double t : out.history.times)
+          for (const std::string& c : joint.components)
+            EXPECT_NEAR(out.history.at(c, t), out.history.at("all." + c, t), 1e-8) << c << " at " << t;
+      }
+}
+
+// Friction that follows the force on a rail with a lag T, n' = (m g - n) / T, n(0) = 0:
+//   v = v0 - mu g (t - T (1 - exp(-t / T)))
+TEST(Drives, an_effort_follows_a_reaction_through_a_state) {
+  const double mu = 0.3, g = 9.81, T = 0.2, t = 0.5;
+  const Outcome out = run_ok(scene_of(R"-({"gravity": [0, 0, -9.81],
+  "analysis": {"kind": "dynamic", "end_time": 0.5, "step_size": 1e-3},
+  "bodies": [{"name": "block", "mass": 4, "inertia": [0.3, 0.4, 0.5]}],
+  "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "block", "axis": [1, 0, 0],
+     "second_axis": [0, 1, 0], "forces": [{"effort": {"signal": "friction"}}]}],
+  "initial_velocities": [{"of": "block", "velocity": [3, 0, 0]}],
+  "signals": [{"name": "normal", "kind": "joint_reaction", "joint": "rail", "component": "fy"},
+    {"name": "pressed", "kind": "state", "expression": "(normal - pressed)/0.2"},
+    {"name": "friction", "kind": "formula", "expression": "-0.3*pressed"}],
+  "sensors": [{"name": "v", "kind": "joint_rate", "joint": "rail"},
+    {"name": "normal", "kind": "signal", "signal": "normal"}]})-"));
+  EXPECT_NEAR(out.history.last("normal"), 4.0 * g, 1e-9);  // axes of the rail: (y, z, x)
+  EXPECT_NEAR(out.history.last("v"), 3.0 - mu * g * (t - T * (1.0 - std::exp(-t / T))), 1e-5);
+}
+
 }  // namespace
 }  // namespace bough::run

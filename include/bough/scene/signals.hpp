@@ -19,6 +19,19 @@ bool is_signal_name(std::string_view name);
 /// The coordinate of a joint that a signal reads, or whose rate; nullptr if the joint has no such coordinate.
 const JointCoordinate* coordinate_of(const Signal& signal, const JointType& joint);
 
+/// The row of a joint whose multiplier is a component of its reaction, "fx" to "mz" in the axes of the joint's first
+/// frame: the wrench of the first on the second, about the second's origin. The force along axis i belongs to the row
+/// u_i = 0, the moment about axis k to the row e_i . R e_j = 0 where R e_j keeps the direction e_j of the first:
+///   f_i = -lambda,   m_k = -lambda e_k . (e_j x e_i)
+struct ReactionRow {
+  int row = -1;       ///< in JointType::rows
+  double sign = 1.0;  ///< of the component, times the multiplier
+};
+/// Nothing where no row holds this component, or where it is no multiplier alone.
+std::optional<ReactionRow> reaction_row(const JointType& joint, std::string_view component);
+/// Whether a signal of kind joint_effort reads such a component, given as its coordinate.
+bool reads_reaction(const Signal& signal);
+
 /// Whether a signal measures a coordinate of a joint, or a point.
 bool reads_joint(SignalKind kind);
 bool reads_point(SignalKind kind);
