@@ -120,6 +120,31 @@ std::vector<std::string> add_tension(const Tension& tension, const std::string& 
   return efforts;
 }
 
+/// A spring as a strut of its name, with efforts that signals give besides its own tension.
+scene::Joint strut_of(const scene::Spring& s, const std::vector<std::string>& efforts) {
+  scene::Joint strut;
+  strut.name = s.name;
+  strut.kind = scene::JointKind::strut;
+  strut.first = s.first;
+  strut.second = s.second;
+  for (const std::string& effort : efforts)
+    strut.forces.push_back({"displacement", 0.0, s.rest_length, 0.0, {}, effort});
+  if (!efforts.empty()) {
+    strut.forces.front().stiffness = s.stiffness;
+    strut.forces.front().damping = s.damping;
+  }
+  return strut;
+}
+
+/// The rate of the state of a servo, as a formula: what its gains ask for over the limit, less the state, by the lag.
+std::string servo_text(const JsonValue& v, const scene::Signal& state, const scene::Signal& way,
+                       const scene::Signal& rate, const std::string& target, const std::string& target_rate) {
+  const auto given = [&v](const char* key) { return in_brackets(v.find(key)->number); };
+  const std::string wanted = given("position_gain") + "*(" + target + " - " + way.name + ") + " + given("rate_gain") +
+                             "*(" + target_rate + " - " + rate.name + ")";
+  return "(min(max((" + wanted + ")/" + given("limit") + ", -1), 1) - " + state.name + ")/" + given("lag");
+}
+
 }  // namespace
 
 void Converter::need_signal(const std::string& name, const std::string& at) {
@@ -193,18 +218,7 @@ void Converter::driven_spring(const Value& v, const std::string& at, const scene
     efforts = {force.name};
     made.push_back(std::move(force));
   }
-  scene::Joint strut;
-  strut.name = s.name;
-  strut.kind = scene::JointKind::strut;
-  strut.first = s.first;
-  strut.second = s.second;
-  for (const std::string& effort : efforts)
-    strut.forces.push_back({"displacement", 0.0, s.rest_length, 0.0, {}, effort});
-  if (!efforts.empty()) {
-    strut.forces.front().stiffness = s.stiffness;
-    strut.forces.front().damping = s.damping;
-  }
-  add(scene.joints, "joints", std::move(strut), at);
+  add(scene.joints, "joints", strut_of(s, efforts), at);
   for (scene::Signal& signal : made) add(scene.signals, "signals", std::move(signal), at);
 }
 
@@ -261,11 +275,7 @@ void Converter::actuator(const Value& v, const std::string& at) {
   state.name = unused_signal_name(stem + "of_limit");
   state.inputs = {state.name, way.name, rate.name, target};
   if (target_rate != target) state.inputs.push_back(target_rate);
-  const std::string wanted = in_brackets(v.find("position_gain")->number) + "*(" + target + " - " + way.name + ") + " +
-                             in_brackets(v.find("rate_gain")->number) + "*(" + target_rate + " - " + rate.name + ")";
-  state.formula = laws::Formula("(min(max((" + wanted + ")/" + in_brackets(limit) + ", -1), 1) - " + state.name + ")/" +
-                                    in_brackets(v.find("lag")->number),
-                                state.inputs);
+  state.formula = laws::Formula(servo_text(v, state, way, rate, target, target_rate), state.inputs);
   state.start = start / limit;
   effort.name = name;
   effort.inputs = {state.name};

@@ -89,9 +89,8 @@ TEST(ProfilePage, numbers_are_those_of_the_file) {
     }
     // The shown text starts with the number up to its unit and prefix: three digits of it are those of the file.
     const std::string shown = (*it)[2];
-    if (value->is(io::JsonKind::string)) {
-      EXPECT_EQ(value->text, "nan");
-      EXPECT_EQ(shown, "-");
+    if (value->is(io::JsonKind::string)) {  // a number that is none, or the path of a sub-domain
+      EXPECT_EQ(shown, value->text == "nan" ? "-" : value->text.str());
       continue;
     }
     const double first = std::strtod(shown.c_str(), nullptr);
