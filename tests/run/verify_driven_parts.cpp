@@ -264,8 +264,26 @@ TEST(DrivenParts, a_linear_formula_is_a_spring_with_a_damper) {
     EXPECT_LT(out->summary.checks.energy_balance, 2e-4 * out->summary.checks.energy_scale);
 }
 
-// A pendulum of a beam on a rubber cord in space, and with the cord in the ground of a turning frame: the strain energy
-// of the cord is the integral of its table.
+// Of the efforts along one hinge, the one that is a law of its angle, -8 q^3, stores 2 q^4; a law of the angle of another
+// hinge does work.
+TEST(DrivenParts, an_effort_of_its_own_coordinate_alone_stores_energy) {
+  const Outcome out = run_ok(scene_of(R"-({"analysis": {"kind": "dynamic", "end_time": 1, "step_size": 1e-3},
+  "bodies": [{"name": "A", "mass": 1, "inertia": [1, 1, 1]}, {"name": "B", "mass": 1, "inertia": [1, 1, 1]}],
+  "joints": [{"name": "a", "kind": "revolute", "first": "ground", "second": "A", "axis": [0, 0, 1],
+     "forces": [{"damping": 0.2}, {"effort": {"signal": "own"}}, {"effort": {"signal": "other"}}]},
+    {"name": "b", "kind": "revolute", "first": "ground", "second": "B", "axis": [0, 0, 1]}],
+  "initial_velocities": [{"of": "B", "angular_velocity": [0, 0, 1.5]}],
+  "signals": [{"name": "qa", "kind": "joint_angle", "joint": "a"}, {"name": "qb", "kind": "joint_angle", "joint": "b"},
+    {"name": "own", "kind": "function", "of": "qa", "law": {"expression": "-8*t^3"}},
+    {"name": "other", "kind": "function", "of": "qb", "law": {"expression": "2*t"}}],
+  "sensors": [{"name": "angle", "kind": "joint_angle", "joint": "a"}, {"name": "strain", "kind": "strain_energy"}]})-"));
+  const double angle = out.history.last("angle");
+  EXPECT_GT(angle, 0.2);
+  EXPECT_NEAR(out.history.last("strain"), 2.0 * std::pow(angle, 4), 1e-12);
+  EXPECT_LT(out.summary.checks.energy_balance, 1e-5 * out.summary.checks.energy_scale);
+}
+
+// A rubber cord in space: its strain energy is the integral of its table.
 TEST(DrivenParts, a_cord_stores_the_integral_of_its_table) {
   const Outcome out = run_ok(scene_of(R"-({"gravity": [0, 0, -9.81],
   "analysis": {"kind": "dynamic", "end_time": 0.5, "step_size": 1e-3, "tolerance": 1e-11, "spectral_radius": 0.95},
