@@ -106,6 +106,14 @@ TEST(Actuators, a_limited_servo_does_not_wind_up) {
   EXPECT_LT(out.summary.checks.energy_balance, 1e-4 * out.summary.checks.energy_scale);
 }
 
+// Without gains, the effort of the start fades with the lag: T = T_0 exp(-t / lag).
+TEST(Actuators, the_effort_of_the_start_fades_with_the_lag) {
+  const Outcome out =
+      run_ok(scene_of(wheel(R"-("lag": 0.2, "limit": 4, "start": 3)-", 0.3), {"/analysis/step_size=1e-3"}));
+  EXPECT_NEAR(out.history.first("torque"), 3.0, 1e-12);
+  EXPECT_NEAR(out.history.last("torque"), 3.0 * std::exp(-1.5), 1e-5);
+}
+
 // A servo of speed follows a ramp of the target rate with the lag of its closed loop; a signal may be the target.
 TEST(Actuators, a_servo_follows_the_rate_that_a_signal_gives) {
   const Outcome out = run_ok(

@@ -267,6 +267,7 @@ TEST_P(RedundantRows, share_loads_by_least_norm_and_the_run_says_so) {
   };
   EXPECT_TRUE(says("5 constraint row(s) depend on others"));
   EXPECT_TRUE(says("those of least norm are given"));
+  EXPECT_FALSE(says("passes a singular position"));
 }
 
 // Ten turns between two times: turns are counted on the way.
