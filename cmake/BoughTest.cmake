@@ -42,6 +42,9 @@ function(bough_add_test name)
   if(NOT TEST_TIMEOUT)
     set(TEST_TIMEOUT ${timeout_${TEST_LABEL}})
   endif()
+  if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
+    math(EXPR TEST_TIMEOUT "5 * ${TEST_TIMEOUT}")  # they slow tests down tenfold and more, most of all beside others
+  endif()
 
   if(TEST_NO_SANITIZERS AND CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
     return()
