@@ -1,8 +1,8 @@
 #pragma once
-/// Operations of a step on nodes, on any group: prediction, Newton corrections, updates of velocities, local
-/// errors. Eight nodes are computed at once, one in each lane of a pack; results are bitwise equal to those of scalar
-/// arithmetic. Each function takes some of the eights of a NodeOrder, or its range [begin, end) of them, so that threads
-/// can share the work. Internal to step.
+/// Operations of a step on nodes, on any group: prediction, Newton corrections, updates of velocities, local errors.
+/// Eight nodes are computed at once, one in each lane of a pack; results are bitwise equal to those of scalar
+/// arithmetic. Each function takes some of the eights of a NodeOrder, or its range [begin, end) of them, so that
+/// threads can share the work. Internal to step.
 #include <cstdint>
 #include <span>
 
@@ -49,7 +49,7 @@ template <class G>
 double correct_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, const NodeOrder& order,
                      std::size_t begin, std::size_t end, const NodeIncrements& increments, NodeChange<G>* changes);
 
-/// Nodes without unknowns are at rest: all of theirs is as it was at the start of the step.
+/// Copies the nodes without unknowns from the start of a step to its end: they are at rest.
 template <class G>
 void keep_held(const NodesOn<G>& start, NodesOn<G>& state, const NodeOrder& order);
 

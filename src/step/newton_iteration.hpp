@@ -11,8 +11,8 @@ class NewtonIteration {
   NewtonIteration(System& system, const StepOptions& options, const IterationGoal& goal,
                   const elements::Slopes& slopes);
 
-  /// Evaluates the residual and condenses the right-hand side. Before the first correction it also evaluates and factors
-  /// the tangents if a new factorization is due.
+  /// Evaluates the residual and, if factors may be reused, condenses the right-hand side. Before the first correction
+  /// it also evaluates and factors the tangents if a new factorization is due.
   [[nodiscard]] std::optional<Trouble> evaluate(const State& state);
   /// Whether the residual just evaluated ends the iteration: it and the expected next correction are small enough, or
   /// the residual is round-off.
