@@ -132,11 +132,12 @@ void note_end(System& system, const AlphaRule& rule, const State& start, State& 
 }
 
 /// Combines the values of all chunks in Workspace::step_ends into the state.
-void note_whole_end(System& system, const State& start, State& state) {
+void note_whole_end(System& system, const AlphaRule& rule, const State& start, State& state) {
   Workspace::StepEnd whole;
   for (const Workspace::StepEnd& part : system.work().step_ends) {
     whole.error = std::max(whole.error, part.error);
     whole.increment = std::max(whole.increment, part.increment);
+    whole.of_change = std::max(whole.of_change, part.of_change);
   }
   Misses misses{};  // summed in the order of nodes, which no number of threads changes
   for (const Misses& of_node : system.work().misses)
@@ -144,6 +145,7 @@ void note_whole_end(System& system, const State& start, State& state) {
   state.predictor_order = least_missed(misses);
   state.local_error = whole.error;
   state.increment = whole.increment;
+  state.velocity_error = rule.velocity_error(whole.of_change);
   system.corrections().note_multipliers(start, state);
   for (std::size_t i = 0; i < state.signals.value.size(); ++i)
     state.signals.trend[i] = system.plan().signals[i].is_state() ? state.signals.rate[i] - start.signals.rate[i]
@@ -174,11 +176,11 @@ StepReport try_step(System& system, State& state, const State& start, const Step
     return report;
   };
   if (const auto t = enter(system, state, step, end_time, side)) return fail(*t);
-  report = iterate(system, state, options, make_goal(start), step.rule.slopes(), step);
+  report = iterate(system, state, options, make_goal(start, options.tolerance), step.rule.slopes(), step);
   if (!report.converged) return report;
   if (const auto t = check_shape(system, state)) return fail(*t);
   note_end(system, step.rule, start, state);
-  note_whole_end(system, start, state);
+  note_whole_end(system, step.rule, start, state);
   system.recover_multipliers(state);
   return report;
 }

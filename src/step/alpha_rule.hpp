@@ -1,5 +1,7 @@
 #pragma once
 /// The formulas of one step of generalized-alpha, for motion vectors in space or in a plane. Internal to step.
+#include <cmath>
+
 #include "bough/elements/evaluate.hpp"
 #include "bough/step/options.hpp"
 #include "first_order.hpp"
@@ -38,7 +40,13 @@ struct AlphaRule {
   /// step, `bracket` is ad(v) dv/dt.
   template <class V>
   V local_error(const V& change, const V& bracket) const {
-    return (h * h * (c.beta + 0.5 * c.shift() - 1.0 / 6.0)) * change - (h * h * h / 12.0) * bracket;
+    return (h * h * c.error_of_increments()) * change - (h * h * h / 12.0) * bracket;
+  }
+
+  /// The change of dq that amounts to the local error e_v of velocities, again without the filter. `of_change`, the
+  /// difference of the last two changes of dv/dt, estimates h^2 v'''. Velocities change with dq by gamma / (beta h).
+  double velocity_error(double of_change) const {
+    return h * h * (c.beta / c.gamma) * std::abs(c.error_of_velocities()) * of_change;
   }
 
   /// The increment dq of a step over which dv/dt changes by `change`.

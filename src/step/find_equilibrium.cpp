@@ -26,7 +26,7 @@ void rest(System& system, State& state) {
   std::fill(state.multiplier_trend.begin(), state.multiplier_trend.end(), 0.0);
   std::fill(state.multiplier_trend_change.begin(), state.multiplier_trend_change.end(), 0.0);
   state.predictor_order = state.multiplier_order = 0;
-  state.local_error = state.increment = 0.0;
+  state.local_error = state.increment = state.velocity_error = 0.0;
 }
 
 /// Sizes h of the steps of pseudo-time, and when they have arrived. While h is small the changes grow with h^2, then

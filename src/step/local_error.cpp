@@ -33,17 +33,10 @@ bool is_seen_whole(const plan::SensorPlan& s) {
 
 }  // namespace
 
-ErrorConstants make_error_constants(const AlphaCoefficients& c) {
-  const double d = c.shift();
-  const double kappa = 0.5 * (1.0 - c.alpha_f - (1.0 - c.alpha_m) * (1.0 + 2.0 * d) - d * d);
-  return {c.beta + 0.5 * d - 1.0 / 6.0, kappa - 0.5 * d * d + 1.0 / 12.0};
-}
-
 LocalError::LocalError(const System& system, const StepOptions& options, double duration)
     : plan_(system.plan()),
       spectral_radius_(options.spectral_radius),
       alpha_(make_alpha_coefficients(options.spectral_radius)) {
-  constants_ = make_error_constants(alpha_);
   const double length = system.plan().length_scale;
   least_ = {length, 1.0, length / duration, 1.0 / duration};
   if (options.step_control) {
@@ -142,7 +135,7 @@ void LocalError::shift_accelerations(const State& after, State& to) const {
   to.change_all([&]<class G>(NodesOn<G>& nodes) {
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
       auto& node = nodes.motion[n];
-      node.a += h * ((constants_.position / h) * nodes.acceleration_trend[n] -
+      node.a += h * ((alpha_.error_of_increments() / h) * nodes.acceleration_trend[n] -
                      (1.0 / 12.0) * motion::VectorsOn<G>::template bracket<double>(node.v, node.a));
     }
   });
@@ -203,7 +196,8 @@ std::optional<Trouble> LocalError::measure(System& system, const State& after) {
 
 /// Ratio of the velocity error e_v to the change of e / h^3 from step to step.
 double LocalError::velocity_factor() const {
-  return step_ * step_ * step_ * std::abs(constants_.velocity / constants_.position) / (0.5 * (step_ + previous_step_));
+  return step_ * step_ * step_ * std::abs(alpha_.error_of_velocities() / alpha_.error_of_increments()) /
+         (0.5 * (step_ + previous_step_));
 }
 
 ErrorLimit LocalError::limit(double tolerance) const {
@@ -252,7 +246,7 @@ void LocalError::displace(const State& after, State& to) const {
 
 void LocalError::disturb(const State& after, State& to) const {
   to = after;
-  const double of_change = has_previous_ ? std::copysign(velocity_factor(), constants_.velocity) : 0.0;
+  const double of_change = has_previous_ ? std::copysign(velocity_factor(), alpha_.error_of_velocities()) : 0.0;
   const std::vector<elements::NodeMotion>& nodes = nodes_in_space(plan_, after);
   for (std::size_t n = 0; n < now_.size(); ++n) {
     set_velocity(plan_, to, n, nodes[n].v + of_change * (now_[n] - previous_[n]));

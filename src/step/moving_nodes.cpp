@@ -360,6 +360,7 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_le
         std::max(part.error,
                  largest(rule.local_error(change, motion::VectorsOn<G>::template bracket<Pack>(rates[0], rates[1]))));
     part.increment = std::max(part.increment, largest(rates[2]));
+    part.of_change = std::max(part.of_change, largest(of_change));
     state.acceleration_trend.eight(k) = change;
     state.trend_change.eight(k) = of_change;
   }

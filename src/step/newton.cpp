@@ -39,11 +39,13 @@ bool is_small(const System& system, const ResidualSize& r, double tolerance) {
   return largest_share(system, r) <= tolerance;
 }
 
-IterationGoal make_goal(const State& start) {
+IterationGoal make_goal(const State& start, double tolerance) {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   constexpr double share_of_error = 3e-5, least_residual = 1e-13, roundings_of_increment = 4.0;
+  constexpr double share_of_velocity_error = 30.0;  // over the tolerance
   if (!(start.local_error > eps)) return {};
-  return {std::max(share_of_error * start.local_error, least_residual), roundings_of_increment * eps * start.increment};
+  return {std::max(share_of_error * start.local_error, least_residual),
+          share_of_velocity_error * tolerance * start.velocity_error, roundings_of_increment * eps * start.increment};
 }
 
 bool is_settled(const System& system, const ResidualSize& r, double tolerance, const IterationGoal& goal, double error,
@@ -60,6 +62,7 @@ bool is_settled(const System& system, const ResidualSize& r, double tolerance, c
   };
   if (!within(r.length, system.plan().length_scale, 0.0, usual) || !within(r.angle, 1.0, 0.0, usual)) return false;
   if (!within(r.signal, 1.0, 0.0, usual)) return false;
+  if (error <= goal.motion && forces_within(tolerance)) return true;
   if (!forces_within(usual)) return false;
   if (goal.residual >= usual || error <= goal.round_off || forces_within(goal.residual)) return true;
   const ResidualSize& floor = system.round_off().of_poses();

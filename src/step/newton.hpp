@@ -27,13 +27,15 @@ constexpr double unseen_growth = 1.2;
 /// nothing.
 struct IterationGoal {
   double residual = 1.0;   ///< largest final residual, relative to the sum of |terms| [-]
+  double motion = 0.0;     ///< changes of relative motions that are negligible beside the local error of velocities [-]
   double round_off = 0.0;  ///< changes of relative motions due to the rounding of increments [-]
 };
 
 /// The final residual, relative to the sum of the magnitudes of its terms, may be 3e-5 of the last relative local
-/// error, but need not be below 1e-13. Nothing is required after a start, or where the local error itself is round-off,
+/// error, but need not be below 1e-13. The motion that is left out may be 30 tolerances of the local error of velocities,
+/// which the default tolerance makes 3e-7. Nothing is required after a start, or where the local error itself is round-off,
 /// as where drives prescribe all motion.
-IterationGoal make_goal(const State& start);
+IterationGoal make_goal(const State& start, double tolerance);
 
 /// Relative size of a residual: the largest of its forces, moments, lengths and angles, each relative to its own scale
 /// (the sum of the magnitudes of the terms, the size of the structure, 1 rad).
@@ -43,10 +45,11 @@ double largest_share(const System& system, const ResidualSize& r);
 bool is_small(const System& system, const ResidualSize& r, double tolerance);
 
 /// Whether an iteration may stop with `share` times this residual, `error` being the relative change of the motion that
-/// is still to be expected. The residual must be within left_open times the tolerance or, if it is below the tolerance,
-/// within the round-off that earlier iterations met. A stricter goal must be met as well. Exempt from it is a residual
-/// that is round-off of poses, and one that belongs to reactions alone (`error` is round-off): reactions do not
-/// accumulate over steps.
+/// is still to be expected. Where that change is negligible beside the local error of velocities, forces must be within
+/// the tolerance. Otherwise they must be within left_open times the tolerance or, if they are below the tolerance,
+/// within the round-off that earlier iterations met, and a stricter goal must be met as well. Exempt from that goal is a
+/// residual that is round-off of poses, and one that belongs to reactions alone (`error` is round-off): reactions do
+/// not accumulate over steps. Violations of constraints must be within left_open times the tolerance in any case.
 bool is_settled(const System& system, const ResidualSize& r, double tolerance, const IterationGoal& goal, double error,
                 double share = 1.0);
 

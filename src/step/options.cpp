@@ -40,4 +40,10 @@ AlphaCoefficients make_alpha_coefficients(double rho) {
   return c;
 }
 
+double AlphaCoefficients::error_of_velocities() const {
+  const double d = shift();
+  const double kappa = 0.5 * (1.0 - alpha_f - (1.0 - alpha_m) * (1.0 + 2.0 * d) - d * d);
+  return kappa - 0.5 * d * d + 1.0 / 12.0;
+}
+
 }  // namespace bough::step

@@ -257,13 +257,13 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
       system.places().set_node_part(
           steady_error.data(), static_cast<int>(n),
           typename NodesOn<G>::Vector((-h * h) *
-                                      ((c.beta + 0.5 * c.shift() - 1.0 / 6.0) * jerk -
+                                      (c.error_of_increments() * jerk -
                                        (1.0 / 12.0) * motion::VectorsOn<G>::template bracket<double>(node.v, node.a))));
     }
   });
   state.step_size = h;
   state.predictor_order = 1;
-  state.local_error = state.increment = 0.0;
+  state.local_error = state.increment = state.velocity_error = 0.0;
   state.multiplier_trend.assign(state.multipliers.size(), 0.0);
   state.multiplier_trend_change.assign(state.multipliers.size(), 0.0);
   state.multiplier_order = 0;

@@ -230,7 +230,7 @@ TEST(ErrorEstimate, local_error_of_velocities_is_that_of_an_oscillator) {
     "sensors": [{"name": "v", "kind": "velocity", "at": "mass"}],
     "analysis": {"kind": "dynamic", "end_time": 3, "step_size": 0.01}})"));
   ASSERT_TRUE(run.ok()) << run.summary.cause;
-  const double constant = std::abs(step::make_error_constants(step::make_alpha_coefficients(0.8)).velocity);
+  const double constant = std::abs(step::make_alpha_coefficients(0.8).error_of_velocities());
   const double expected = h * h * h * constant * w * w * w;
   EXPECT_NEAR(run.summary.checks.local_error_max_velocity, expected, 0.03 * expected);
 }

@@ -120,7 +120,7 @@ double unbalanced(const Rig& held, Rig& whole) {
 /// A run with what is held and one without.
 void compare_steps(scene::Scene s, scene::Integrator integrator = scene::Integrator::generalized_alpha) {
   constexpr double h = 5e-4;
-  s.analysis.tolerance = 1e-12;
+  s.analysis.tolerance = 1e-13;
   s.analysis.integrator = integrator;
   Rig held(s), whole(barred(s));
   ASSERT_FALSE(held.plan.held.empty());

@@ -29,17 +29,17 @@ std::pair<double, double> errors_of_a_step(double radius, Speed speed, Rate rate
 
 TEST(ErrorConstants, are_what_a_step_leaves_of_polynomials) {
   for (const double radius : {0.0, 0.3, 0.5, 0.8, 0.95}) {
-    const ErrorConstants c = make_error_constants(make_alpha_coefficients(radius));
+    const AlphaCoefficients c = make_alpha_coefficients(radius);
     // q = t^3 / 6: v'' = 1.
     const auto cubic = errors_of_a_step(
         radius, [](double t) { return 0.5 * t * t; }, [](double t) { return t; }, 1.0 / 6.0);
-    EXPECT_NEAR(cubic.first, c.position, 1e-12) << radius;
+    EXPECT_NEAR(cubic.first, c.error_of_increments(), 1e-12) << radius;
     EXPECT_NEAR(cubic.second, 0.0, 1e-12) << radius;
     // v = t^3 / 6: v''' = 1.
     const auto quartic = errors_of_a_step(
         radius, [](double t) { return t * t * t / 6.0; }, [](double t) { return 0.5 * t * t; }, 1.0 / 24.0);
-    EXPECT_NEAR(quartic.second, c.velocity, 1e-9) << radius;
-    EXPECT_GT(c.position, 0.08) << "no radius leaves positions without an error to measure";
+    EXPECT_NEAR(quartic.second, c.error_of_velocities(), 1e-9) << radius;
+    EXPECT_GT(c.error_of_increments(), 0.08) << "no radius leaves positions without an error to measure";
   }
 }
 

@@ -34,6 +34,9 @@ struct AlphaCoefficients {
   double shift() const {
     return alpha_m - alpha_f;
   }  ///< a_n stands for dv/dt at t_n + shift h (Arnold, Bruls, Cardona 2015)
+  /// Constants C_q and C_v of the local errors of increments and velocities (step_control.hpp).
+  double error_of_increments() const { return beta + 0.5 * shift() - 1.0 / 6.0; }
+  double error_of_velocities() const;
 };
 AlphaCoefficients make_alpha_coefficients(double spectral_radius);
 

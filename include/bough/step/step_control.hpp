@@ -31,12 +31,6 @@ struct ErrorParts {
   double angular_velocity = 0.0;  ///< [rad/s]
 };
 
-/// Constants of e_q and e_v, functions of the spectral radius alone.
-struct ErrorConstants {
-  double position, velocity;
-};
-ErrorConstants make_error_constants(const AlphaCoefficients& c);
-
 /// What the last measured error asked for small steps.
 struct ErrorLimit {
   int node = -1;             ///< in Plan::nodes, where it was largest
@@ -101,7 +95,6 @@ class LocalError {
   void enter_states(System& system, const State& after, std::vector<double>& rhs);
 
   const plan::Plan& plan_;
-  ErrorConstants constants_;
   double spectral_radius_;
   AlphaCoefficients alpha_;
   ErrorParts least_, allowance_;  ///< least sizes; absolute tolerances over the relative one

@@ -23,9 +23,10 @@ struct Workspace {
   std::vector<double> rhs, x;  ///< of the linear system
   State start;                 ///< of a step
   State before;                ///< statics: where an iteration started
-  /// Quantities at the end of a step, of a chunk of nodes, as State::local_error and State::increment.
+  /// Quantities at the end of a step, of a chunk of nodes: State::local_error, State::increment, and the square of the
+  /// largest second difference of accelerations, angular ones times the moment arm.
   struct StepEnd {
-    double error = 0.0, increment = 0.0;
+    double error = 0.0, increment = 0.0, of_change = 0.0;
   };
   std::vector<StepEnd> step_ends;  ///< by chunk of eights
   std::vector<Misses> misses;      ///< of accelerations, by node
