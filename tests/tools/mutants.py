@@ -5,10 +5,11 @@
                                          [--log mutants.jsonl] [--jobs 2]
 
 BUILD is a configured build folder of this checkout, which has to be clean: each mutant is written into the sources,
-built, tested and taken back. The tests of the mutant's layer run first, then all others of the labels unit and
-verification, up to the first that fails. The mutants follow from the seed: an interrupted call continues where its log
-ends. Mutants that do not compile are not counted. Each line of the log is a JSON object with the change and the test
-that failed, or null where none did; such survivors are to be explained, or to be given a test."""
+built, tested and taken back. The tests of the mutant's layer run first, then whole scenes, then all others of the
+labels unit and verification, up to the first that fails; only programs that the change reaches are built and run. The
+mutants follow from the seed: an interrupted call continues where its log ends. Mutants that do not compile are not
+counted. Each line of the log is a JSON object with the change and the test that failed, or null where none did; such
+survivors are to be explained, or to be given a test."""
 import argparse
 import json
 import os
@@ -16,6 +17,7 @@ import random
 import re
 import subprocess
 import sys
+import time
 
 SWAPS = [(r" \+ ", " - "), (r" - ", " + "), (r" \* ", " / "), (r" / ", " * "), (r" < ", " <= "), (r" > ", " >= "),
          (r" <= ", " < "), (r" >= ", " > "), (r" == ", " != "), (r" && ", " || "), (r" \|\| ", " && "),
@@ -55,35 +57,49 @@ class Suite:
         self.build, self.jobs = build, jobs
         listed = subprocess.run(["ctest", "--test-dir", build, "-L", "^(unit|verification)$", "--show-only=json-v1"],
                                 capture_output=True, text=True, check=True).stdout
-        self.programs = {}
+        self.scripts = set()  # beginnings of names of tests that are no program of their own
+        self.programs = {}  # of each layer: beginnings of its tests' names, by the path of the program that holds them
         for test in json.loads(listed)["tests"]:
-            layer = test["name"].split("/")[0].split(".")[0]
-            if "command" in test:
-                self.programs.setdefault(layer, set()).add(os.path.basename(test["command"][0]))
+            path = test.get("command", [""])[0]
+            if os.path.basename(path).startswith("test_"):
+                name = test["name"].split(".")[0]
+                self.programs.setdefault(name.split("/")[0], {})[path] = name
+            else:
+                self.scripts.add(re.split("[_.]", test["name"])[0])
 
     def make(self, targets):
         command = ["ninja", "-C", self.build, f"-j{self.jobs}", *targets]
         return subprocess.run(command, capture_output=True).returncode == 0
 
     def first_failure(self, pattern):
-        """Name of a test that fails; None if there is none."""
+        """Name of a test that fails, and how; None if there is none."""
         run = subprocess.run(["ctest", "--test-dir", self.build, "-L", "^(unit|verification)$", "-R", pattern, "-E",
                               "^lean|consumer|fuzz", "--stop-on-failure", "--timeout", "120", f"-j{self.jobs}"],
                              capture_output=True, text=True)
-        failed = re.findall(r"^\s+\d+ - (\S+) \((?:Failed|Timeout|SEGFAULT|\S+)", run.stdout, re.M)
-        return failed[0] if failed else None
+        failed = re.findall(r"^\s+\d+ - (\S+) \(([^)]*)\)", run.stdout, re.M)
+        return None if not failed else failed[0][0] + ("" if failed[0][1] == "Failed" else f" ({failed[0][1]})")
 
-    def try_mutant(self, layer):
-        """Returns (compiles, failing test)."""
-        own = sorted(p for p in self.programs.get(layer, ()) if p.startswith("test_"))
-        if not self.make(own):
+    def failure_of(self, programs, since):
+        """Builds programs and runs the tests of those that became others. Returns (compiles, failing test)."""
+        if not programs:
+            return True, None
+        if not self.make([os.path.relpath(path, self.build) for path in programs]):
             return False, None
-        failed = self.first_failure(f"^{layer}[/.]")
-        if failed is None:
-            if not self.make([]):
-                return False, None
-            failed = self.first_failure(".")
-        return True, failed
+        changed = [name for path, name in programs.items() if os.path.getmtime(path) >= since]
+        return True, self.first_failure("^(" + "|".join(changed) + r")\.") if changed else None
+
+    def try_mutant(self, layer, since):
+        """Returns (compiles, failing test). The layer's tests come first, then whole scenes, then all others; programs
+        that do not hold the changed line, which was written at `since`, are not asked."""
+        rest = {path: name for other in self.programs for path, name in self.programs[other].items()
+                if other not in (layer, "run")}
+        for programs in (self.programs.get(layer, {}), self.programs["run"] if layer != "run" else {}, rest):
+            compiles, failed = self.failure_of(programs, since)
+            if not compiles or failed is not None:
+                return compiles, failed
+        if not self.make([]):
+            return False, None
+        return True, self.first_failure("^(" + "|".join(sorted(self.scripts)) + ")[_.]")
 
 
 def main():
@@ -128,7 +144,9 @@ def main():
         try:
             with open(path, "w", encoding="utf-8") as f:
                 f.write("\n".join(lines))
-            record["compiles"], record["killed_by"] = suite.try_mutant(layer)
+            started = time.time()
+            record["compiles"], record["killed_by"] = suite.try_mutant(layer, started - 1.0)
+            record["seconds"] = round(time.time() - started, 1)
         finally:
             with open(path, "w", encoding="utf-8") as f:
                 f.write(original)
