@@ -2,6 +2,8 @@
 #include "bough/scene/signals.hpp"
 
 #include <algorithm>
+#include <string_view>
+#include <unordered_map>
 
 #include "plan_builder.hpp"
 
@@ -38,6 +40,14 @@ SignalRule rule_of(scene::SignalKind kind) {
       break;
   }
   return SignalRule::formula;
+}
+
+/// First item of each name.
+template <class T>
+std::unordered_map<std::string_view, const T*> by_name(const std::vector<T>& list) {
+  std::unordered_map<std::string_view, const T*> items;
+  for (const T& item : list) items.emplace(item.name, &item);
+  return items;
 }
 
 }  // namespace
@@ -86,8 +96,9 @@ void Builder::read_effort(const scene::Joint& joint, const elements::Joint& made
 }
 
 void Builder::add_signals() {
-  std::unordered_map<std::string, const scene::Signal*> given;
-  for (const scene::Signal& s : scene.signals) given[s.name] = &s;
+  const auto given = by_name(scene.signals);
+  const auto joints = by_name(scene.joints);
+  const auto springs = by_name(scene.springs);
   for (SignalPlan& p : plan.signals) {
     const scene::Signal& s = *given.at(p.name);
     for (const std::string& input : s.inputs) p.inputs.push_back(law_of_signal.at(input));
@@ -95,8 +106,7 @@ void Builder::add_signals() {
     elements::Effort& read = p.reading.efforts[0];
     p.reading.num_efforts = 1;
     if (s.kind == scene::SignalKind::joint_effort) {
-      const auto joint = std::find_if(scene.joints.begin(), scene.joints.end(),
-                                      [&](const scene::Joint& j) { return j.name == s.joint; });
+      const scene::Joint* joint = joints.at(s.joint);
       if (scene::reads_reaction(s)) {
         p.joint_name = s.joint;
         p.reading.ports[0] = port_at(joint->first);
@@ -105,15 +115,14 @@ void Builder::add_signals() {
         plan.signals_read_multipliers = true;
         continue;
       }
-      const auto index = static_cast<std::size_t>(joint - scene.joints.begin());  // these come first in Plan::joints
+      const auto index = static_cast<std::size_t>(joint - scene.joints.data());  // these come first in Plan::joints
       read_effort(*joint,
                   array_of<elements::Joint>(plan.elements)[static_cast<std::size_t>(plan.joints[index].element)],
                   scene::coordinate_of(s, scene::type_of(joint->kind))->kind, p);
       continue;
     }
     if (s.kind == scene::SignalKind::spring_tension) {
-      const auto spring = std::find_if(scene.springs.begin(), scene.springs.end(),
-                                       [&](const scene::Spring& e) { return e.name == s.spring; });
+      const scene::Spring* spring = springs.at(s.spring);
       p.reading.ports[0] = port_at(spring->first);
       p.reading.ports[1] = port_at(spring->second);
       read.coordinate = motion::RowKind::distance;
@@ -125,8 +134,7 @@ void Builder::add_signals() {
     (p.rule == SignalRule::rate ? read.damping : read.stiffness) = 1.0;
     read.coordinate = motion::RowKind::along;
     if (scene::reads_joint(s.kind)) {
-      const auto joint = std::find_if(scene.joints.begin(), scene.joints.end(),
-                                      [&](const scene::Joint& j) { return j.name == s.joint; });
+      const scene::Joint* joint = joints.at(s.joint);
       p.joint_name = s.joint;
       p.reading.ports[0] = port_at(joint->first);
       p.reading.ports[1] = port_at(joint->second);
@@ -157,9 +165,11 @@ void Builder::list_signals_of_elements() {
     return;
   }
   plan.signal_of_law.resize(plan.laws.size(), -1);
+  std::unordered_map<std::string_view, int> place_of_joint;
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) place_of_joint[plan.joints[j].name] = static_cast<int>(j);
   for (SignalPlan& p : plan.signals)
-    for (std::size_t j = 0; j < plan.joints.size(); ++j)
-      if (!p.joint_name.empty() && plan.joints[j].name == p.joint_name) p.joint = static_cast<int>(j);
+    if (const auto place = place_of_joint.find(p.joint_name); !p.joint_name.empty() && place != place_of_joint.end())
+      p.joint = place->second;
   for (const elements::Joint& e : array_of<elements::Joint>(plan.elements))
     for (int k = 0; k < e.num_rows; ++k) plan.signals_drive |= e.rows[k].law >= 0 && is_signal(e.rows[k].law);
   plan.signals_of_element.resize(plan.directory.size());
