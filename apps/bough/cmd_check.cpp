@@ -15,6 +15,25 @@
 namespace bough::app {
 namespace {
 
+/// A list of a scene whose items are counted, as written.
+struct CountedList {
+  std::string_view key;
+  const char *one, *many;
+};
+constexpr CountedList counted_lists[] = {{"nodes", "node", "nodes"},
+                                         {"bodies", "body", "bodies"},
+                                         {"beams", "beam", "beams"},
+                                         {"joints", "joint", "joints"},
+                                         {"springs", "spring", "springs"},
+                                         {"bushings", "bushing", "bushings"},
+                                         {"actuators", "actuator", "actuators"},
+                                         {"loads", "load", "loads"},
+                                         {"motions", "prescribed motion", "prescribed motions"},
+                                         {"signals", "signal", "signals"},
+                                         {"sensors", "sensor", "sensors"},
+                                         {"expected", "expected figure", "expected figures"},
+                                         {"measures", "measure", "measures"}};
+
 void count(std::string& text, std::size_t number, const char* one, const char* many) {
   if (number == 0) return;
   text += (text.empty() ? " " : ", ") + std::to_string(number) + " " + (number == 1 ? one : many);
@@ -57,16 +76,9 @@ int check(const CheckArguments& arguments) {
   const scene::Scene& s = file.scene;
   if (const std::size_t refused = print_mobility(arguments.scene, s); refused > 0) return refuse(refused);
   std::string parts;
-  count(parts, s.nodes.size(), "node", "nodes");
-  count(parts, s.bodies.size(), "body", "bodies");
-  count(parts, s.beams.size(), "beam", "beams");
-  count(parts, s.joints.size(), "joint", "joints");
-  count(parts, s.springs.size(), "spring", "springs");
-  count(parts, s.bushings.size(), "bushing", "bushings");
-  count(parts, s.point_loads.size() + s.line_loads.size(), "load", "loads");
-  count(parts, s.motions.size(), "prescribed motion", "prescribed motions");
-  count(parts, s.sensors.size(), "sensor", "sensors");
-  count(parts, s.expected.size(), "expected figure", "expected figures");
+  for (const CountedList& list : counted_lists)
+    if (const auto written = file.counts.find(list.key); written != file.counts.end())
+      count(parts, written->second, list.one, list.many);
   std::cout << "ok:" << (parts.empty() ? " an empty scene" : parts) << "\n";
   return exit_done;
 }

@@ -39,6 +39,14 @@ void add_scene_problems(const Converter& converter, Report& report) {
   }
 }
 
+/// Numbers of the items of each list of a document.
+std::map<std::string, std::size_t, std::less<>> counts_in(const JsonValue& root) {
+  std::map<std::string, std::size_t, std::less<>> counts;
+  for (std::size_t i = 0; i < root.items.size(); ++i)
+    if (root.items[i].is(JsonKind::array)) counts[root.items.key(i)] = root.items[i].items.size();
+  return counts;
+}
+
 /// A scene and the document that it was read from.
 struct ReadScene {
   SceneFile file;
@@ -73,6 +81,7 @@ ReadScene read(std::string_view text, std::string name, std::span<const std::str
     Converter converter(*root, folder);
     converter.convert();
     contents = converter.files.contents();
+    file.counts = counts_in(*root);
     report.add(converter.faults, false);
     report.add(converter.warnings, true);
     add_scene_problems(converter, report);

@@ -9,6 +9,7 @@
 #include "bough/laws/law_error.hpp"
 #include "bough/laws/make_law.hpp"
 #include "bough/scene/nearest_name.hpp"
+#include "bough/scene/signals.hpp"
 #include "read_scene_impl.hpp"
 
 namespace bough::io {
@@ -177,7 +178,8 @@ std::string Converter::signal_of(const Value& v, const std::string& at, const st
 /// rest_law, stiffness_factor: added = factor k (l - rest) - k (l - l_0), whose work is counted as that of a drive.
 /// force_law: what it has at rate 0 is a law of the length, which stores its energy; work is counted for the rest.
 void Converter::driven_spring(const Value& v, const std::string& at, const scene::Spring& s) {
-  const std::string stem = "spring_" + std::to_string(scene.joints.size()) + "_";
+  const std::string stem =
+      (scene::is_signal_name(s.name) ? s.name : "spring_" + std::to_string(scene.joints.size())) + "_";
   const auto named = [this, &stem](const char* end) { return unused_signal_name(stem + end); };
   std::vector<scene::Signal> made(1);
   scene::Signal& length = made.front();

@@ -204,6 +204,19 @@ void check_driven_rows(ProblemList& list, SignalNames& names, SignalLevels& leve
   }
 }
 
+/// Analyses that know no signals. The place is that of a signal, or of the part that is made of it: what was written.
+void check_who_knows_signals(ProblemList& list) {
+  if (list.scene.signals.empty()) return;
+  const Analysis& a = list.scene.analysis;
+  const std::string what = " no signals, nor servos and springs with laws, which are made of them";
+  if (list.is_dynamic && a.integrator == Integrator::variational)
+    list.add("signals", 0, "", "", "the variational integrator knows" + what,
+             "give /analysis/integrator as generalized_alpha or bdf, or leave this out");
+  if (!list.is_dynamic && a.arc_length)
+    list.add("signals", 0, "", "", "paths by arc length know" + what,
+             "take load steps in place of /analysis/arc_length, or leave this out");
+}
+
 }  // namespace
 
 void check_signals(ProblemList& list) {
@@ -253,13 +266,7 @@ void check_signals(ProblemList& list) {
   check_loads_of("point_loads", scene.point_loads);
   check_loads_of("line_loads", scene.line_loads);
   if (list.defective.empty()) check_circles(list);
-  if (scene.signals.empty()) return;
-  const Analysis& a = scene.analysis;
-  if (list.is_dynamic && a.integrator == Integrator::variational)
-    list.add("analysis", 0, "integrator", "variational", "the variational integrator does not know signals",
-             "take generalized_alpha or bdf");
-  if (!list.is_dynamic && a.arc_length)
-    list.add("analysis", 0, "arc_length", "", "paths by arc length do not know signals", "take load steps");
+  check_who_knows_signals(list);
 }
 
 }  // namespace bough::scene

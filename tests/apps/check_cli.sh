@@ -64,6 +64,8 @@ holds test ! -e bad.out
 expect 2 'problem' check bad.json
 expect 2 . run good.json --set /analysis/step_size=-1 --out bad.out
 expect 0 'ok: ' check "$gallery/arm_inverse.json"
+expect 0 'ok: 1 body, 2 joints, 1 actuator, 3 sensors, 2 expected figures' check "$gallery/boom_servo.json"
+expect 0 'ok: 1 body, 1 joint, 3 signals, 2 sensors, 3 expected figures' check "$gallery/governor.json"
 expect 2 "'fore' can still turn about the axis" check "$gallery/arm_inverse.json" --set /joints/1/drives=[]
 expect 1 "at joint 'elbow'" run "$gallery/arm_inverse.json" --set /joints/1/drives=[] --out undriven.out
 expect 2 . run good.json --set nonsense --out bad.out

@@ -102,6 +102,53 @@ TEST(SceneHints, settings_without_effect_are_told) {
   EXPECT_TRUE(says(path.warnings, {"/analysis/load_steps", "arc_length"})) << texts(path.warnings);
 }
 
+// Springs with laws and servos are made of signals: the part is named that was written, and the setting.
+TEST(SceneHints, analyses_that_know_no_signals_name_what_was_written) {
+  const std::string start = R"({"schema_version": 1, "bodies": [{"name": "a", "mass": 1, "inertia": [1, 1, 1]}],
+      "joints": [{"name": "axle", "kind": "revolute", "first": "ground", "second": "a", "axis": [0, 0, 1]}], )";
+  const std::string spring =
+      R"("springs": [{"name": "coil", "first": "ground", "second": {"to": "a", "position": [1, 0, 0]},
+                      "force_law": {"expression": "9*stretch^3"}}], )";
+  const std::string servo = R"("actuators": [{"name": "motor", "kind": "servo", "joint": "axle", "position_gain": 4,
+                                              "limit": 3, "lag": 0.1}], )";
+  const std::string signal = R"("signals": [{"name": "now", "kind": "time", "law": 1}], )";
+  const std::string variational =
+                        R"("analysis": {"kind": "dynamic", "end_time": 1, "step_size": 1e-2,
+                                        "integrator": "variational"}})",
+                    path = R"("analysis": {"kind": "static", "arc_length": {"step": 0.1}}})";
+  const auto expect = [&](const std::string& part, const std::string& analysis, const std::string& place,
+                          const std::string& setting) {
+    const SceneFile file = read_scene_text(start + part + analysis, "a");
+    ASSERT_EQ(file.problems.size(), 1u) << texts(file.problems);
+    EXPECT_EQ(file.problems.front().pointer, place);
+    EXPECT_TRUE(says(file.problems, {"no signals", setting.c_str()})) << texts(file.problems);
+  };
+  expect(spring, variational, "/springs/0", "/analysis/integrator");
+  expect(servo, variational, "/actuators/0", "/analysis/integrator");
+  expect(signal, variational, "/signals/0", "/analysis/integrator");
+  expect(spring, path, "/springs/0", "/analysis/arc_length");
+  expect(servo, path, "/actuators/0", "/analysis/arc_length");
+}
+
+// A servo is made of four signals and an effort, this spring of a strut.
+TEST(SceneHints, items_are_counted_as_written) {
+  const SceneFile file = read_scene_text(R"({"schema_version": 1,
+      "bodies": [{"name": "a", "mass": 1, "inertia": [1, 1, 1]}],
+      "joints": [{"name": "axle", "kind": "revolute", "first": "ground", "second": "a", "axis": [0, 0, 1]}],
+      "springs": [{"name": "coil", "first": "ground", "second": {"to": "a", "position": [1, 0, 0]},
+                   "force_law": {"expression": "9*stretch^3"}}],
+      "actuators": [{"name": "motor", "kind": "servo", "joint": "axle", "position_gain": 4, "limit": 3, "lag": 0.1}],
+      "repeat": [{"index": "i", "count": 3, "signals": [{"name": "now{i}", "kind": "time", "law": 1}]}],
+      "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 1e-2}})",
+                                         "a");
+  ASSERT_TRUE(file.ok()) << texts(file.problems);
+  EXPECT_EQ(file.scene.joints.size(), 2u);
+  EXPECT_GT(file.scene.signals.size(), 7u);
+  const std::map<std::string, std::size_t, std::less<>> written{
+      {"bodies", 1}, {"joints", 1}, {"springs", 1}, {"actuators", 1}, {"signals", 3}};
+  EXPECT_EQ(file.counts, written);
+}
+
 TEST(SceneHints, velocities_that_joints_do_not_allow_are_told_with_joint_and_size) {
   const SceneFile across = read(cart, R"("initial_velocities": [ { "of": "cart", "velocity": [1, 3, 0] } ])");
   EXPECT_TRUE(across.ok()) << texts(across.problems);

@@ -264,6 +264,15 @@ TEST(Signals, what_is_not_finite_is_named) {
                          R"-({"signal": "torque"})-", in_plane));
   EXPECT_FALSE(r.ok());
   EXPECT_NE(r.summary.cause.find("signal 'torque'"), std::string::npos) << r.summary.cause;
+  // What a law adds to a spring has the spring's name.
+  const Outcome spring = support::run(scene_of(R"-({
+  "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.01},
+  "bodies": [{"name": "mass", "mass": 2, "inertia": [1, 1, 1], "position": [1, 0, 0]}],
+  "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "mass", "axis": [1, 0, 0]}],
+  "springs": [{"name": "coil", "first": "ground", "second": "mass",
+               "force_law": {"expression": "-1/(1.2 - length)^0.5"}}]})-"));
+  EXPECT_FALSE(spring.ok());
+  EXPECT_NE(spring.summary.cause.find("signal 'coil_force'"), std::string::npos) << spring.summary.cause;
 }
 
 }  // namespace
