@@ -42,6 +42,17 @@ TEST(VerifyStatics, newton_converges_quadratically) {
   for (const char* name : {"bend_45", "princeton_beam"}) expect_quadratic(gallery(name), 0.2, 0.3);
   expect_quadratic(gallery("elastica"), 0.05, 0.1);
   expect_quadratic(gallery("elastica", {"/sections/0/stiffness/EA=1e4"}), 0.05, 0.1);
+  // What signals drive: a cord of cubic law, stiffer the higher the tip, and a load that follows its height.
+  expect_quadratic(
+      gallery("elastica",
+              {R"-(/springs=[{"name": "cord", "first": {"to": "ground", "position": [1, -0.5, 0]}, "second": "tip",
+                              "rest_length": 0.5,
+                              "force_law": {"expression": "(1 + up^2)*(3*stretch + 20*stretch^3)"}}])-",
+               R"-(/signals=[{"name": "up", "kind": "position", "at": "tip", "axis": "y"},
+                             {"name": "force", "kind": "formula", "expression": "0.2 + 0.1*sin(3*up)"}])-",
+               R"-(/loads=[{"at": "tip", "force": [0, 10, 0]},
+                           {"at": "tip", "force": [0, 2, 1], "law": {"signal": "force"}}])-"}),
+      0.2, 0.3);
   // A follower force makes the tangent unsymmetric; a line load and a bushing add their own parts.
   scene::Scene s = scene::make_cantilever(scene::make_section("s", 1e6, 1e6, 1e6, 10, 10, 10), 1.0, 8, 2);
   s.name = "follower";
