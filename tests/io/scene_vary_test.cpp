@@ -117,6 +117,9 @@ TEST(SceneVary, unknown_names_values_that_are_not_finite_and_t_are_refused_where
   expect_problem(parameters + body(R"({"expression": "1/zero"})"), {"gives inf", "/bodies/0/mass"});
   expect_problem(R"("parameters": {"zero": 0, "x": {"expression": "0/zero"}}, )" + body(R"({"expression": "x"})"),
                  {"gives nan", "/parameters/x"});
+  expect_problem(R"("parameters": {"x": {"expression": "lost"}, "y": {"expression": "2*x"}}, )" +
+                     body(R"({"expression": "x + y"})"),
+                 {"lost", "/parameters/x"});  // once, not where it is needed
   expect_problem(body(R"({"expression": "1 + t"})"), {"t stands in laws", "\"t\""});
   expect_problem(body(R"({"expression": "1 +"})"), {"/bodies/0/mass/expression", "expected a number"});
   expect_problem(body(R"({"expression": 1})"), {"a string, not a number"});

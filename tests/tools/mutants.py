@@ -9,8 +9,9 @@ built, tested and taken back. The tests of the mutant's layer run first, then wh
 labels unit and verification, up to the first that fails; only programs that the change reaches are built and run. The
 mutants follow from the seed: an interrupted call continues where its log ends. Mutants that do not compile are not
 counted. Each line of the log is a JSON object with the change and the test that failed, or null where none did; such
-survivors are to be explained, or to be given a test. A test has to fail twice. Where the machine is busy with other
-work, tests with limits of time are to be skipped: --skip ^apps"""
+survivors are to be explained, or to be given a test; those whose line is given an "equivalent" are not counted. A test
+has to fail twice. Where the machine is busy with other work, tests with limits of time are to be skipped: --skip
+^apps"""
 import argparse
 import json
 import os
@@ -28,6 +29,15 @@ SWAPS = [(r" \+ ", " - "), (r" - ", " + "), (r" \* ", " / "), (r" / ", " * "), (
 STATEMENT = re.compile(r"^\s+[A-Za-z_][\w.\->\[\]()*]*(\([^;]*\)| [+\-*/|]?= [^;]*);$")
 EXEMPT = re.compile(r"^\s*(//|#|\*|template|using|namespace|static_assert|case |public:|private:|return;)|constexpr|"
                     r"snprintf|printf|\"")
+
+
+ARRAYS = re.compile(r"^\s*[\w:]+(<[\w, ]+>)? \w+\[[^\]]*\](, \w+\[[^\]]*\])*;$")
+
+
+def is_longer_array(old, new):
+    """Whether a change makes an array longer and nothing else: no program can see it."""
+    return bool(ARRAYS.match(old)) and old.replace(" - ", " + ") == new.replace(" - ", " + ") and \
+        old.count(" - ") > new.count(" - ")
 
 
 def candidates(root, layers):
@@ -111,6 +121,10 @@ class Suite:
         return True, self.first_failure("^(" + "|".join(sorted(self.scripts)) + ")[_.]")
 
 
+def counts(record):
+    return record["compiles"] and "equivalent" not in record
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build")
@@ -132,13 +146,20 @@ def main():
     if os.path.exists(arguments.log):
         with open(arguments.log, encoding="utf-8") as f:
             done = [json.loads(line) for line in f]
+
+    def keep(record):
+        done.append(record)
+        with open(arguments.log, "a", encoding="utf-8") as f:
+            f.write(json.dumps(record) + "\n")
+        print(json.dumps(record), flush=True)
+
     suite = Suite(arguments.build, arguments.jobs, arguments.skip)
     if not suite.make([]):
         sys.exit("mutants: the checkout does not build")
     failed = suite.first_failure(".") if not done else None
     if failed is not None:
         sys.exit(f"mutants: {failed} fails without a mutant")
-    counted = sum(r["compiles"] for r in done)
+    counted = sum(counts(r) for r in done)
     for number in range(100 * arguments.count):
         layer = layers[number % len(layers)]
         _, path, k, text = rng.choice(by_layer[layer])
@@ -150,6 +171,10 @@ def main():
             original = f.read()
         lines = original.split("\n")
         record = {"file": os.path.relpath(path, root), "line": k + 1, "old": lines[k].strip(), "new": text.strip()}
+        if is_longer_array(lines[k], text):
+            record.update({"compiles": True, "killed_by": None, "equivalent": "a longer array"})
+            keep(record)
+            continue
         lines[k] = text
         try:
             with open(path, "w", encoding="utf-8") as f:
@@ -160,15 +185,12 @@ def main():
         finally:
             with open(path, "w", encoding="utf-8") as f:
                 f.write(original)
-        counted += record["compiles"]
-        done.append(record)
-        with open(arguments.log, "a", encoding="utf-8") as f:
-            f.write(json.dumps(record) + "\n")
-        print(json.dumps(record), flush=True)
+        counted += counts(record)
+        keep(record)
     suite.make([])
-    tried = [r for r in done if r["compiles"]]
+    tried = [r for r in done if counts(r)]
     killed = sum(r["killed_by"] is not None for r in tried)
-    print(f"{killed} of {len(tried)} mutants killed, {len(done) - len(tried)} did not compile")
+    print(f"{killed} of {len(tried)} mutants killed, {len(done) - len(tried)} did not compile or change nothing")
 
 
 if __name__ == "__main__":
