@@ -74,6 +74,16 @@ TEST(SceneHints, numbers_beyond_computing_are_refused) {
   }
 }
 
+TEST(SceneHints, densities_go_with_shapes) {
+  for (const char* key : {"\"density\": 7850, ", "\"material\": \"steel\", "}) {
+    const SceneFile body = read("\"mass\": 2, \"inertia\"", key + std::string("\"inertia\""));
+    EXPECT_TRUE(says(body.problems, {"/bodies/0", "go with a shape"})) << texts(body.problems);
+    const SceneFile point =
+        read("\"kind\": \"point_mass\", \"mass\": 0.5,", key + std::string("\"kind\": \"point_mass\","));
+    EXPECT_TRUE(says(point.problems, {"/bodies/1", "a mass only"})) << texts(point.problems);
+  }
+}
+
 TEST(SceneHints, settings_without_effect_are_told) {
   const char* const dynamic = R"("end_time": 1, "step_size": 1e-3, "spectral_radius": 0.9)";
   const Hint hints[] = {

@@ -5,13 +5,13 @@
                                          [--log mutants.jsonl] [--jobs 2] [--skip PATTERN]
 
 BUILD is a configured build folder of this checkout, which has to be clean: each mutant is written into the sources,
-built, tested and taken back. The tests of the mutant's layer run first, then whole scenes, then all others of the
-labels unit and verification, up to the first that fails; only programs that the change reaches are built and run. The
-mutants follow from the seed: an interrupted call continues where its log ends. Mutants that do not compile are not
-counted. Each line of the log is a JSON object with the change and the test that failed, or null where none did; such
-survivors are to be explained, or to be given a test; those whose line is given an "equivalent" are not counted. A test
-has to fail twice. Where the machine is busy with other work, tests with limits of time are to be skipped: --skip
-^apps"""
+built, tested and taken back. Tests whose name has a word of the file's run first, then those of its layer, then whole
+scenes, then all others of the labels unit and verification, up to the first that fails; only programs that the change
+reaches are built and run. The mutants follow from the seed: an interrupted call continues where its log ends. Mutants
+that do not compile are not counted. Each line of the log is a JSON object with the change and the test that failed, or
+null where none did; such survivors are to be explained, or to be given a test; those whose line is given an
+"equivalent" are not counted. A test has to fail twice. Where the machine is busy with other work, tests with limits of
+time are to be skipped: --skip ^apps"""
 import argparse
 import json
 import os
@@ -107,12 +107,17 @@ class Suite:
         changed = [name for path, name in programs.items() if os.path.getmtime(path) >= since]
         return True, self.first_failure("^(" + "|".join(changed) + r")\.") if changed else None
 
-    def try_mutant(self, layer, since):
-        """Returns (compiles, failing test). The layer's tests come first, then whole scenes, then all others; programs
-        that do not hold the changed line, which was written at `since`, are not asked."""
-        rest = {path: name for other in self.programs for path, name in self.programs[other].items()
+    def try_mutant(self, layer, path, since):
+        """Returns (compiles, failing test). The layer's tests come first, then whole scenes, those first whose name has
+        a word of the file's, then all others; programs that do not hold the changed line, which was written at `since`,
+        are not asked."""
+        words = [w.rstrip("s") for w in os.path.basename(path).split(".")[0].split("_") if len(w) > 3]
+        scenes = self.programs["run"] if layer != "run" else {}
+        own = {**self.programs.get(layer, {}), **scenes}
+        named = {p: name for p, name in own.items() if any(w in name.split("/")[1] for w in words)}
+        rest = {p: name for other in self.programs for p, name in self.programs[other].items()
                 if other not in (layer, "run")}
-        for programs in (self.programs.get(layer, {}), self.programs["run"] if layer != "run" else {}, rest):
+        for programs in (named, self.programs.get(layer, {}), scenes, rest):
             compiles, failed = self.failure_of(programs, since)
             if not compiles or failed is not None:
                 return compiles, failed
@@ -180,7 +185,7 @@ def main():
             with open(path, "w", encoding="utf-8") as f:
                 f.write("\n".join(lines))
             started = time.time()
-            record["compiles"], record["killed_by"] = suite.try_mutant(layer, started - 1.0)
+            record["compiles"], record["killed_by"] = suite.try_mutant(layer, path, started - 1.0)
             record["seconds"] = round(time.time() - started, 1)
         finally:
             with open(path, "w", encoding="utf-8") as f:
