@@ -69,6 +69,7 @@ class Suite:
         self.left_out = "^lean|consumer|fuzz" + (f"|{skip}" if skip else "")
         listed = subprocess.run(["ctest", "--test-dir", build, "-L", "^(unit|verification)$", "--show-only=json-v1"],
                                 capture_output=True, text=True, check=True).stdout
+        self.costs = {}
         self.scripts = set()  # beginnings of names of tests that are no program of their own
         self.programs = {}  # of each layer: beginnings of its tests' names, by the path of the program that holds them
         for test in json.loads(listed)["tests"]:
@@ -98,14 +99,42 @@ class Suite:
             return self.first_failure(pattern, False) if is_first else None
         return name if how == "Failed" else f"{name} ({how})"
 
+    def cost_of(self, name):
+        """Seconds that the tests of a program took when ctest ran them last."""
+        if not self.costs:
+            with open(os.path.join(self.build, "Testing", "Temporary", "CTestCostData.txt"), encoding="utf-8") as f:
+                for words in map(str.split, f):
+                    if len(words) == 3:
+                        program = words[0].split(".")[0]
+                        self.costs[program] = self.costs.get(program, 0.0) + float(words[2])
+        return self.costs.get(name, 0.0)
+
+    def failure_in(self, path, name):
+        """Test of a program that fails, twice; None if there is none."""
+        for _ in range(2):
+            try:
+                run = subprocess.run([path, "--gtest_fail_fast", "--gtest_brief=1"], capture_output=True, text=True,
+                                     errors="replace", cwd=self.build, timeout=60.0 + 20.0 * self.cost_of(name))
+            except subprocess.TimeoutExpired:
+                return f"{name} (Timeout)"
+            if run.returncode == 0:
+                return None
+            failed = re.findall(r"^\[  FAILED  \] (\S+)", run.stdout, re.M)
+        return f"{name}.{failed[0].rstrip(',')}" if failed else f"{name} (ends with {run.returncode})"
+
     def failure_of(self, programs, since):
-        """Builds programs and runs the tests of those that became others. Returns (compiles, failing test)."""
+        """Builds programs and runs those that became others, the quick ones first. Returns (compiles, failing test)."""
         if not programs:
             return True, None
         if not self.make([os.path.relpath(path, self.build) for path in programs]):
             return False, None
-        changed = [name for path, name in programs.items() if os.path.getmtime(path) >= since]
-        return True, self.first_failure("^(" + "|".join(changed) + r")\.") if changed else None
+        for path in sorted(programs, key=lambda path: self.cost_of(programs[path])):
+            if os.path.getmtime(path) < since:
+                continue
+            failed = self.failure_in(path, programs[path])
+            if failed is not None:
+                return True, failed
+        return True, None
 
     def try_mutant(self, layer, path, since):
         """Returns (compiles, failing test). The layer's tests come first, then whole scenes, those first whose name has
@@ -114,7 +143,7 @@ class Suite:
         words = [w.rstrip("s") for w in os.path.basename(path).split(".")[0].split("_") if len(w) > 3]
         scenes = self.programs["run"] if layer != "run" else {}
         own = {**self.programs.get(layer, {}), **scenes}
-        named = {p: name for p, name in own.items() if any(w in name.split("/")[1] for w in words)}
+        named = {p: name for p, name in own.items() if any(w in name for w in words)}
         rest = {p: name for other in self.programs for p, name in self.programs[other].items()
                 if other not in (layer, "run")}
         for programs in (named, self.programs.get(layer, {}), scenes, rest):
@@ -158,7 +187,7 @@ def main():
             f.write(json.dumps(record) + "\n")
         print(json.dumps(record), flush=True)
 
-    suite = Suite(arguments.build, arguments.jobs, arguments.skip)
+    suite = Suite(os.path.abspath(arguments.build), arguments.jobs, arguments.skip)
     if not suite.make([]):
         sys.exit("mutants: the checkout does not build")
     failed = suite.first_failure(".") if not done else None
