@@ -22,6 +22,9 @@ constexpr double noise_spread = 1.5;
 /// above the tolerance.
 constexpr double roundings = 16.0;
 
+/// A residual is never required to be smaller than this part of the sum of the magnitudes of its terms.
+constexpr double least_residual = 1e-13;
+
 }  // namespace
 
 double largest_share(const System& system, const ResidualSize& r) {
@@ -41,11 +44,11 @@ bool is_small(const System& system, const ResidualSize& r, double tolerance) {
 
 IterationGoal make_goal(const State& start, double tolerance) {
   constexpr double eps = std::numeric_limits<double>::epsilon();
-  constexpr double share_of_error = 3e-5, least_residual = 1e-13, roundings_of_increment = 4.0;
   constexpr double share_of_velocity_error = 30.0;  // over the tolerance
+  constexpr double roundings_of_increment = 4.0;
   if (!(start.local_error > eps)) return {};
-  return {std::max(share_of_error * start.local_error, least_residual),
-          share_of_velocity_error * tolerance * start.velocity_error, roundings_of_increment * eps * start.increment};
+  return {true, share_of_velocity_error * tolerance * start.velocity_error,
+          roundings_of_increment * eps * start.increment};
 }
 
 bool is_settled(const System& system, const ResidualSize& r, double tolerance, const IterationGoal& goal, double error,
@@ -62,12 +65,12 @@ bool is_settled(const System& system, const ResidualSize& r, double tolerance, c
   };
   if (!within(r.length, system.plan().length_scale, 0.0, usual) || !within(r.angle, 1.0, 0.0, usual)) return false;
   if (!within(r.signal, 1.0, 0.0, usual)) return false;
-  if (error <= goal.motion && forces_within(tolerance)) return true;
+  if (goal.is_set && error <= goal.motion && forces_within(tolerance)) return true;
   if (!forces_within(usual)) return false;
-  if (goal.residual >= usual || error <= goal.round_off || forces_within(goal.residual)) return true;
+  if (!goal.is_set || error <= goal.round_off || forces_within(least_residual)) return true;
   const ResidualSize& floor = system.round_off().of_poses();
-  return share * r.force <= std::max(floor.force, goal.residual * force) &&
-         share * r.moment <= std::max(floor.moment, goal.residual * moment);
+  return share * r.force <= std::max(floor.force, least_residual * force) &&
+         share * r.moment <= std::max(floor.moment, least_residual * moment);
 }
 
 bool is_noise(const System& system, const ResidualSize& r, double tolerance, double size, double expected) {

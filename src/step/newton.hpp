@@ -26,15 +26,14 @@ constexpr double unseen_growth = 1.2;
 /// What the local error of the last step requires of an iteration in addition to the tolerance. The default requires
 /// nothing.
 struct IterationGoal {
-  double residual = 1.0;   ///< largest final residual, relative to the sum of |terms| [-]
+  bool is_set = false;
   double motion = 0.0;     ///< changes of relative motions that are negligible beside the local error of velocities [-]
   double round_off = 0.0;  ///< changes of relative motions due to the rounding of increments [-]
 };
 
-/// The final residual, relative to the sum of the magnitudes of its terms, may be 3e-5 of the last relative local
-/// error, but need not be below 1e-13. The motion that is left out may be 30 tolerances of the local error of velocities,
-/// which the default tolerance makes 3e-7. Nothing is required after a start, or where the local error itself is round-off,
-/// as where drives prescribe all motion.
+/// The motion that is left out may be 30 tolerances of the last local error of velocities, which the default tolerance
+/// makes 3e-7. Nothing is required after a start, or where the local error itself is round-off, as where drives
+/// prescribe all motion.
 IterationGoal make_goal(const State& start, double tolerance);
 
 /// Relative size of a residual: the largest of its forces, moments, lengths and angles, each relative to its own scale
@@ -45,11 +44,12 @@ double largest_share(const System& system, const ResidualSize& r);
 bool is_small(const System& system, const ResidualSize& r, double tolerance);
 
 /// Whether an iteration may stop with `share` times this residual, `error` being the relative change of the motion that
-/// is still to be expected. Where that change is negligible beside the local error of velocities, forces must be within
-/// the tolerance. Otherwise they must be within left_open times the tolerance or, if they are below the tolerance,
-/// within the round-off that earlier iterations met, and a stricter goal must be met as well. Exempt from that goal is a
+/// is still to be expected. Violations of constraints must be within left_open times the tolerance. Where no goal is
+/// set, forces must be so as well, or within the tolerance and the round-off that earlier iterations met. Where a goal
+/// is set and the change is negligible (IterationGoal::motion), forces must be within the tolerance. Otherwise, what
+/// applies without a goal is required, and forces must be within 1e-13 of their terms. Exempt from the latter is a
 /// residual that is round-off of poses, and one that belongs to reactions alone (`error` is round-off): reactions do
-/// not accumulate over steps. Violations of constraints must be within left_open times the tolerance in any case.
+/// not accumulate over steps.
 bool is_settled(const System& system, const ResidualSize& r, double tolerance, const IterationGoal& goal, double error,
                 double share = 1.0);
 
