@@ -21,12 +21,12 @@ scene::Scene make_bar(double share) {
   return s;
 }
 
-/// Places rounded to eps leave forces of eps EA over the length of an element, 1e-6 N, beside 3e-3, 1e-4 and 3e-5 N of
+/// Places rounded to eps leave forces of eps EA over the length of an element, 1e-6 N, beside 3e-3 and 3e-5 N of
 /// weight: the tolerance cannot be met. Nodes that lie still ask for neither more solutions nor new factors. Under the
-/// largest weight most iterations end before, where the motion left is far below the local error.
+/// larger weight iterations end before that, where the motion left out is far below the local error.
 TEST(Renewal, none_for_forces_that_round_off_leaves) {
   constexpr int steps = 100;
-  for (const double share : {1e-4, 3e-6, 1e-6}) {
+  for (const double share : {1e-4, 1e-6}) {
     test::Rig rig(make_bar(share));
     rig.run(0, 1e-3);
     const long solutions = rig.system.counts().solutions, factors = rig.system.counts().factorizations;
