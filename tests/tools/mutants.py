@@ -103,9 +103,10 @@ class Suite:
         """Seconds that the tests of a program took when ctest ran them last."""
         if not self.costs:
             with open(os.path.join(self.build, "Testing", "Temporary", "CTestCostData.txt"), encoding="utf-8") as f:
-                for words in map(str.split, f):
-                    if len(words) == 3:
-                        program = words[0].split(".")[0]
+                for line in f:
+                    words = line.rsplit(maxsplit=2)
+                    if len(words) == 3:  # name, number of runs, seconds
+                        program = words[0].strip('"').split(".")[0]
                         self.costs[program] = self.costs.get(program, 0.0) + float(words[2])
         return self.costs.get(name, 0.0)
 
@@ -114,7 +115,7 @@ class Suite:
         for _ in range(2):
             try:
                 run = subprocess.run([path, "--gtest_fail_fast", "--gtest_brief=1"], capture_output=True, text=True,
-                                     errors="replace", cwd=self.build, timeout=60.0 + 20.0 * self.cost_of(name))
+                                     errors="replace", cwd=self.build, timeout=300.0 + 20.0 * self.cost_of(name))
             except subprocess.TimeoutExpired:
                 return f"{name} (Timeout)"
             if run.returncode == 0:
