@@ -117,6 +117,7 @@ TEST(Pictures, bodies_without_a_shape_are_solids_of_their_inertia_or_bars_to_whe
   EXPECT_NEAR(reach(of["link"], 0), 2.0 * std::cos(0.4) + 0.1 * std::sin(0.4), 0.002);
   EXPECT_NEAR(reach(of["link"], 1), 2.0 * std::sin(0.4) + 0.1 * std::cos(0.4), 0.002);
   EXPECT_NEAR(reach(of["link"], 2), 0.1, 0.002);
+  EXPECT_NEAR(scene::volume_of(of["link"]), 0.01 * 3.14159265358979 * 3.0, 1e-9) << "triangles face outwards";
 }
 
 // A frame on an arm: 2 m along x, turned by 3 t about y, in one that goes up by t^2.
