@@ -186,6 +186,22 @@ TEST(PlanarStep, shows_nodes_in_space_anew_once_they_are_changed) {
   EXPECT_EQ(nodes_in_space(rig.plan, copy).back().v[1], after.v[1]);
 }
 
+// A change of a position that a double does not hold is seen in space.
+TEST(PlanarStep, shows_both_parts_of_positions) {
+  test::Rig rig(make_held_bar());
+  ASSERT_TRUE(rig.plan.is_on<motion::Se2>());
+  rig.run(5, 1e-3);
+  const elements::NodeMotion before = rig.nodes().back();
+  const double change = 1e-19;
+  State changed = rig.state;
+  changed.change_all([&]<class G>(NodesOn<G>& nodes) {
+    if constexpr (std::is_same_v<G, motion::Se2>) nodes.motion.back().x.lo[0] += change;
+  });
+  const elements::NodeMotion& after = nodes_in_space(rig.plan, changed).back();
+  const motion::Vec3<double> seen = (after.x.hi - before.x.hi) + (after.x.lo - before.x.lo);
+  EXPECT_NEAR(std::sqrt(lanes::dot(seen, seen)), change, 1e-6 * change);
+}
+
 TEST(PlanarStep, shows_some_nodes_with_the_bits_of_all) {
   test::Rig rig(make_held_bar());
   rig.run(5, 1e-3);
