@@ -173,7 +173,7 @@ std::optional<Trouble> LocalError::measure(System& system, const State& after) {
   if (auto t = system.evaluate(shifted_, {}, false)) return t;
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = c2 * (rhs[i] - system.right_hand_side()[i]);
   enter_states(system, after, rhs);
-  if (auto t = system.linear().solve(rhs.data(), x.data(), false)) return t;
+  if (auto t = system.linear().solve(rhs.data(), x.data(), false)) return t;  // the step has checked the factor
   if (!std::all_of(x.begin(), x.end(), [](double of_x) { return std::isfinite(of_x); }))
     return Trouble{"the local error of the step is not finite"};
   for (WatchedState& s : states_) s.error = x[system.places().signals()[s.signal]] / h;

@@ -61,7 +61,8 @@ double predict_nodes(const AlphaRule& rule, int degree, const NodesOn<G>& start,
 
 /// At the end of a step: stores the acceleration-like variable, and the changes of accelerations for the next
 /// predictor, stores the squared errors of the predictors of order 0, 1, 2 by node, and returns the local error, the
-/// size of dq and that of the second difference of accelerations. `arm` [m] converts angular to linear accelerations; `per_length` [1/m] makes lengths relative.
+/// size of dq and that of the second difference of accelerations. `arm` [m] converts angular to linear accelerations;
+/// `per_length` [1/m] makes lengths relative.
 template <class G>
 Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_length, const NodesOn<G>& start,
                                 NodesOn<G>& state, const NodeOrder& order, std::size_t begin, std::size_t end,

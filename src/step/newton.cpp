@@ -22,7 +22,7 @@ constexpr double noise_spread = 1.5;
 /// above the tolerance.
 constexpr double roundings = 16.0;
 
-/// A residual is never required to be smaller than this part of the sum of the magnitudes of its terms.
+/// Largest residual, relative to the sum of the magnitudes of its terms, that meets a goal whatever the motion left out.
 constexpr double least_residual = 1e-13;
 
 }  // namespace

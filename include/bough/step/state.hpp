@@ -52,8 +52,8 @@ struct State {
   /// Of the last step of generalized-alpha, the largest over all nodes, lengths over the size of the structure: its
   /// local error without the filter of stiff parts (step_control.hpp), 0 after a start; and dq.
   double local_error = 0.0, increment = 0.0;
-  /// The local error of velocities of that step, without the filter too, as the change of dq that it amounts to; 0 in
-  /// the first step after a start. Relative to the size of the structure or 1 rad.
+  /// The local error of velocities of that step, without the filter too, as the change of dq that changes velocities by
+  /// as much (AlphaRule::velocity_error), lengths over the size of the structure; 0 after a start.
   double velocity_error = 0.0;
   double last_step = 0.0;  ///< h that dq spans, of the variational integrator [s]; 0 at a start
   /// Statics: increments in space that nodes still lack and their digits cannot hold; else empty.

@@ -23,8 +23,8 @@ struct Workspace {
   std::vector<double> rhs, x;  ///< of the linear system
   State start;                 ///< of a step
   State before;                ///< statics: where an iteration started
-  /// Quantities at the end of a step, of a chunk of nodes: State::local_error, State::increment, and the square of the
-  /// largest second difference of accelerations, angular ones times the moment arm.
+  /// Quantities at the end of a step, of a chunk of nodes: State::local_error, State::increment, and the largest second
+  /// difference of accelerations, linear ones over the size of the structure.
   struct StepEnd {
     double error = 0.0, increment = 0.0, of_change = 0.0;
   };
