@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "../step/small_scenes.hpp"
-#include "bough/laws/formula.hpp"
 #include "bough/laws/make_law.hpp"
 #include "bough/plan/plan.hpp"
 
@@ -80,50 +79,26 @@ TEST(PlanGrowth, of_sensors_and_initial_velocities) {
   });
 }
 
-/// Adds body i on a hinge at node i, and returns the hinge.
-scene::Joint& add_hinged_body(Scene& s, int i) {
-  scene::Body b;
-  b.name = name("p", i);
-  b.mass = 1.0;
-  b.inertia = Mat3::identity();
-  b.placement.pose = at(i, 1.0);
-  s.bodies.push_back(b);
-  scene::Joint j;
-  j.name = name("j", i);
-  j.kind = scene::JointKind::revolute;
-  j.first = {name("n", i), at(0.0, 1.0)};
-  j.second.to = b.name;
-  return s.joints.emplace_back(j);
-}
-
 TEST(PlanGrowth, of_bodies_joints_and_their_sensors) {
   expect_linear([](Scene& s, int n) {
     for (int i = 0; i < n; ++i) {
+      scene::Body b;
+      b.name = name("p", i);
+      b.mass = 1.0;
+      b.inertia = Mat3::identity();
+      b.placement.pose = at(i, 1.0);
+      s.bodies.push_back(b);
+      scene::Joint j;
+      j.name = name("j", i);
+      j.kind = scene::JointKind::revolute;
+      j.first = {name("n", i), at(0.0, 1.0)};
+      j.second.to = b.name;
+      s.joints.push_back(j);
       scene::Sensor sensor;
       sensor.name = name("angle", i);
       sensor.kind = scene::SensorKind::joint_angle;
-      sensor.joint = add_hinged_body(s, i).name;
+      sensor.joint = j.name;
       s.sensors.push_back(sensor);
-    }
-  });
-}
-
-/// A motor in every joint of a row of bodies: each signal was compared with every joint.
-TEST(PlanGrowth, of_signals_of_joints) {
-  expect_linear([](Scene& s, int n) {
-    for (int i = 0; i < n; ++i) {
-      scene::Joint& j = add_hinged_body(s, i);
-      j.forces.push_back({"angle", 0.0, 0.0, 0.0, {}, name("torque", i)});
-      scene::Signal angle, rate, torque;
-      angle.name = name("angle", i);
-      angle.kind = scene::SignalKind::joint_angle;
-      rate.name = name("rate", i);
-      rate.kind = scene::SignalKind::joint_rate;
-      angle.joint = rate.joint = j.name;
-      torque.name = name("torque", i);
-      torque.inputs = {angle.name, rate.name};
-      torque.formula = laws::Formula("-5*" + angle.name + " - " + rate.name, torque.inputs);
-      for (const scene::Signal* signal : {&angle, &rate, &torque}) s.signals.push_back(*signal);
     }
   });
 }
