@@ -86,36 +86,36 @@ BOUGH_INLINE void carry_wrenches(const E& e, const Places<E>& places, const S* o
   }
 }
 
-/// Adds the derivatives by the ports' increments to the rows and columns of the nodes' unknowns.
-template <class E, class S>
+/// Adds the derivatives by the ports' increments to the rows and columns of the nodes' unknowns. Elements of one kind
+/// of ports share it, and with it the code that writes their tangents.
+template <class G, class S>
 class TangentWriter {
-  using G = typename E::Group;
-
  public:
+  template <class E>
   TangentWriter(const E& e, const Places<E>& places, int size, S* tangent)
-      : e_(e), places_(places), size_(size), tangent_(tangent) {}
+      : ports_(e.ports), of_(places.of), forces_(places.forces), size_(size), tangent_(tangent) {}
   /// A block of forces:  K_node = J_i^T K J_j, J = Ad(offset^-1).
   template <class Block>
   BOUGH_INLINE void operator()(int i, int j, const Block& block) const {
-    if (places_.of[i] < 0 || places_.of[j] < 0) return;
-    const bool left = e_.ports[i].has_offset, right = e_.ports[j].has_offset;
-    if (!left && !right) return write(places_.of[i], places_.of[j], block);
+    if (of_[i] < 0 || of_[j] < 0) return;
+    const bool left = ports_[i].has_offset, right = ports_[j].has_offset;
+    if (!left && !right) return write(of_[i], of_[j], block);
     Block moved = block;
-    if (right) moved = G::block_product(moved, G::inverse_adjoint_map(e_.ports[j].offset));
-    if (left) moved = G::transposed_product(G::inverse_adjoint_map(e_.ports[i].offset), moved);
-    write(places_.of[i], places_.of[j], moved);
+    if (right) moved = G::block_product(moved, G::inverse_adjoint_map(ports_[j].offset));
+    if (left) moved = G::transposed_product(G::inverse_adjoint_map(ports_[i].offset), moved);
+    write(of_[i], of_[j], moved);
   }
   /// The gradient of a joint's row: a row of the tangent and, since forces are G^T lambda, also a column.
   BOUGH_INLINE void row(int k, int port, typename G::template Vector<S> gradient) const {
-    if (places_.of[port] < 0) return;
-    if (e_.ports[port].has_offset) gradient = G::inverse_adjoint_transpose_times(e_.ports[port].offset, gradient);
-    const int at = places_.forces + k, to = places_.of[port];
+    if (of_[port] < 0) return;
+    if (ports_[port].has_offset) gradient = G::inverse_adjoint_transpose_times(ports_[port].offset, gradient);
+    const int at = forces_ + k, to = of_[port];
     for (int j = 0; j < G::dof; ++j) tangent_[at * size_ + to + j] = tangent_[(to + j) * size_ + at] = gradient[j];
   }
   /// Rows do not depend on multipliers: that block is zero.
   void clear_rows() const {
-    for (int i = places_.forces; i < size_; ++i)
-      for (int j = places_.forces; j < size_; ++j) tangent_[i * size_ + j] = S(0.0);
+    for (int i = forces_; i < size_; ++i)
+      for (int j = forces_; j < size_; ++j) tangent_[i * size_ + j] = S(0.0);
   }
 
  private:
@@ -124,8 +124,9 @@ class TangentWriter {
     for (int k = 0; k < G::dof; ++k)
       for (int l = 0; l < G::dof; ++l) tangent_[(row + k) * size_ + column + l] = block(k, l);
   }
-  const E& e_;
-  const Places<E>& places_;
+  const PortOn<G, S>* ports_;
+  const int* of_;  ///< Places::of
+  int forces_;
   int size_;
   S* tangent_;
 };
@@ -160,7 +161,7 @@ void evaluate_element(const E& e, const FieldOn<G, S>& field, const S* multiplie
     eval_port_slopes(e, field, slopes);
     if constexpr (G::has_moving_frames)
       if (field.observer != nullptr) see_from_inertial(e, field, anchor, p, slopes);
-    const TangentWriter<E, S> put(e, places, size, tangent);
+    const TangentWriter<G, S> put(e, places, size, tangent);
     if constexpr (E::num_multipliers > 0) {
       eval_tangent(e, p, slopes, multipliers, field.around, turns, out, rows, put);
       put.clear_rows();
