@@ -1,4 +1,5 @@
 /// Sensors: how each kind is evaluated, in one table.
+#include <algorithm>
 #include <optional>
 
 #include "bough/motion/frame_chain.hpp"
@@ -190,9 +191,28 @@ void eval_sensors(const step::System& system, const step::State& state, EnergyMe
   for (const int k : sensors) append_values(look, system.plan().sensors[static_cast<std::size_t>(k)], values);
 }
 
-void eval_motion_sensors(const step::System& system, const step::State& state, Values& values) {
+MotionSensors::MotionSensors(const plan::Plan& plan) {
+  for (const SensorPlan& s : plan.sensors)
+    if (shows_motion(s.sensor.kind)) append_nodes_of(plan, s, nodes_);
+  std::sort(nodes_.begin(), nodes_.end());
+  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+  seen_.emplace<motion::Se3>().motion.resize(plan.nodes.size());
+}
+
+elements::NodeMotion& MotionSensors::motion(int node) {
+  return seen_.change<motion::Se3>().motion[static_cast<std::size_t>(node)];
+}
+
+void MotionSensors::see(const plan::Plan& plan, const step::State& state) {
+  seen_.time = state.time;
+  seen_.turns = state.turns;
+  seen_.signals.value = state.signals.value;
+  step::copy_nodes_in_space(plan, state, nodes_, seen_.change<motion::Se3>().motion);
+}
+
+void MotionSensors::eval(const step::System& system, Values& values) const {
   values.clear();
-  Look look{system, state, nullptr};
+  Look look{system, seen_, nullptr};
   for (const SensorPlan& s : system.plan().sensors)
     if (shows_motion(s.sensor.kind))
       append_values(look, s, values);

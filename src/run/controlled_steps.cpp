@@ -30,7 +30,7 @@ ControlledSteps::ControlledSteps(const Parts& parts)
       wanted_size_(scene_.analysis.step_size) {
   if (!EnergyError::is_needed(plan_)) return;
   energy_error_.emplace(plan_, scene_.analysis.end_time, recording_.conservation().mass());
-  displaced_ = state_;  // a step does not allocate
+  disturbed_ = state_;  // a step does not allocate
 }
 
 bool ControlledSteps::begin_stretch() {
@@ -94,9 +94,9 @@ bool ControlledSteps::step_within_stretch() {
 bool ControlledSteps::measure() {
   if (const auto t = local_error_->measure(system_, state_)) return fail(t->text);
   if (energy_error_) {
-    local_error_->disturb(state_, displaced_);
+    local_error_->disturb(state_, disturbed_);
     local_error_->set_energy_error(
-        energy_error_->eval(system_, state_, displaced_, recording_.conservation().energies()));
+        energy_error_->eval(system_, state_, disturbed_, recording_.conservation().energies()));
   }
   return true;
 }

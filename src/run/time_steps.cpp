@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "bough/io/number_text.hpp"
-#include "bough/results/observe.hpp"
 #include "bough/step/find_equilibrium.hpp"
 #include "bough/step/growing_vibration.hpp"
 #include "effective_options.hpp"
@@ -32,8 +31,8 @@ TimeSteps::TimeSteps(const Parts& parts)
   if (options_.integrator != scene::Integrator::generalized_alpha) return;
   if (options_.step_control || checks) local_error_.emplace(system_, options_, scene_.analysis.end_time);
   if (local_error_ && checks && !options_.single_solution && shows_reactions(plan_)) reactions_.emplace(system_);
-  if (recording_.error_watch() == nullptr) return;
-  displaced_ = state_;  // a step does not allocate
+  if (recording_.error_watch() == nullptr || !recording_.error_watch()->has_columns()) return;
+  seen_.emplace(plan_).see(plan_, state_);  // a step does not allocate
   for (auto* values : {&values_before_, &values_now_, &values_displaced_})
     values->reserve(summary().header.columns.size());
 }
@@ -194,18 +193,18 @@ void TimeSteps::add_error(double duration, double size) {
 }
 
 void TimeSteps::see_before_look() {
-  const ErrorWatch* const watch = recording_.error_watch();
-  if (watch == nullptr || !watch->has_columns()) return;
-  results::eval_motion_sensors(system_, state_, values_before_);
+  if (!seen_) return;
+  seen_->see(plan_, state_);
+  seen_->eval(system_, values_before_);
 }
 
 void TimeSteps::watch_errors(double norm) {
-  ErrorWatch* const watch = recording_.error_watch();
-  if (watch == nullptr || !watch->has_columns()) return;
-  results::eval_motion_sensors(system_, state_, values_now_);
-  local_error_->displace(state_, displaced_);
-  results::eval_motion_sensors(system_, displaced_, values_displaced_);
-  watch->look(values_before_, values_now_, values_displaced_, norm, last_step_);
+  if (!seen_) return;
+  seen_->see(plan_, state_);
+  seen_->eval(system_, values_now_);
+  for (const int node : seen_->nodes()) local_error_->displace(static_cast<std::size_t>(node), seen_->motion(node));
+  seen_->eval(system_, values_displaced_);
+  recording_.error_watch()->look(values_before_, values_now_, values_displaced_, norm, last_step_);
 }
 
 void TimeSteps::sum_up() {

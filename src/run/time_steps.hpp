@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis.hpp"
+#include "bough/results/observe.hpp"
 #include "bough/step/integrator.hpp"
 #include "bough/step/step_control.hpp"
 #include "break_walk.hpp"
@@ -57,7 +58,7 @@ class TimeSteps : public Analysis {
 
   double begin_ = 0.0, end_ = 0.0;               ///< times of the present stretch [s]
   std::optional<step::LocalError> local_error_;  ///< of generalized-alpha, if checks or step control need it
-  step::State displaced_;                        ///< state displaced by local errors
+  std::optional<results::MotionSensors> seen_;   ///< if errors of sensors of motion are estimated
   VibrationWatch vibrations_;
   Cloned<step::Integrator> integrator_;
 
@@ -132,6 +133,7 @@ class ControlledSteps final : public TimeSteps {
   step::StepController controller_;
   LimitWatch limit_watch_;
   std::optional<EnergyError> energy_error_;  ///< if sensors show forces, accelerations or energies
+  step::State disturbed_;                    ///< by local errors, for that
   std::vector<double> stops_;                ///< times at which steps have to end
   std::size_t next_stop_ = 0;
   double wanted_size_ = 0.0;        ///< of the next step [s]

@@ -164,14 +164,12 @@ void LocalError::enter_states(System& system, const State& after, std::vector<do
 std::optional<Trouble> LocalError::measure(System& system, const State& after) {
   const double h = after.step_size, h3 = h * h * h;
   std::vector<double>&rhs = system.work().rhs, &x = system.work().x;
-  // The residual is linear in v', so M e = R(v' + e) - R(v'). The e used here is of the size of v', so that the
-  // difference does not cancel.
+  // The residual is linear in v', so R(v' + e) = R(v') + M e, of which the step has left R(v') below what it converged
+  // to. The e used here is of the size of v', far above that.
   const double c2 = (1.0 - alpha_.alpha_m) / ((1.0 - alpha_.alpha_f) * alpha_.beta * h * h);
-  if (auto t = system.evaluate(after, {}, false)) return t;  // maybe not evaluated since the last correction
-  rhs = system.right_hand_side();
   shift_accelerations(after, shifted_);
   if (auto t = system.evaluate(shifted_, {}, false)) return t;
-  for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = c2 * (rhs[i] - system.right_hand_side()[i]);
+  for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -c2 * system.right_hand_side()[i];
   enter_states(system, after, rhs);
   if (auto t = system.linear().solve(rhs.data(), x.data(), false)) return t;  // the step has checked the factor
   if (!std::all_of(x.begin(), x.end(), [](double of_x) { return std::isfinite(of_x); }))
@@ -237,13 +235,12 @@ ErrorLimit LocalError::limit(double tolerance) const {
   return found;
 }
 
-void LocalError::displace(const State& after, State& to) const {
-  to = after;
-  const std::vector<elements::NodeMotion>& nodes = nodes_in_space(plan_, after);
-  for (std::size_t n = 0; n < now_.size(); ++n) {
-    set_velocity(plan_, to, n, nodes[n].v + (step_ * step_) * now_[n]);
-    move_node(plan_, to, n, (step_ * step_ * step_) * now_[n]);
-  }
+void LocalError::displace(std::size_t node, elements::NodeMotion& motion) const {
+  motion.v += (step_ * step_) * now_[node];
+  const auto moved = motion::moved(motion::PreciseFrame<double>{motion.R, motion.x},
+                                   Vec6<double>((step_ * step_ * step_) * now_[node]));
+  motion.R = moved.R;
+  motion.x = moved.x;
 }
 
 void LocalError::disturb(const State& after, State& to) const {

@@ -29,8 +29,24 @@ bool shows_motion(scene::SensorKind kind);
 /// Appends the nodes from which a sensor of motion is evaluated.
 void append_nodes_of(const plan::Plan& plan, const plan::SensorPlan& sensor, std::vector<int>& nodes);
 
-/// Values of the sensors that show motions, at their indices; 0 for all others.
-void eval_motion_sensors(const step::System& system, const step::State& state, std::vector<double>& values);
+/// The sensors that show motions, evaluated on the nodes that they read alone. Allocates when made and at the first
+/// state, not afterwards.
+class MotionSensors {
+ public:
+  explicit MotionSensors(const plan::Plan& plan);
+  /// Takes time, signals and turns of a state, and the motions of these nodes in space.
+  void see(const plan::Plan& plan, const step::State& state);
+  /// Values for what is seen, at the indices of the sensors; 0 for all others.
+  void eval(const step::System& system, std::vector<double>& values) const;
+  /// Nodes that are read, ascending.
+  std::span<const int> nodes() const { return nodes_; }
+  /// Motion of one of these, which may be changed before values are asked for.
+  elements::NodeMotion& motion(int node);
+
+ private:
+  std::vector<int> nodes_;
+  step::State seen_;  ///< in space, of which only what is seen is set
+};
 
 /// Sections, surfaces, kinds and sub-domains of the parts in eval_motion's frames, in the same order.
 records::MotionParts make_parts(const scene::Scene& scene, const step::System& system);

@@ -63,8 +63,8 @@ class LocalError {
   const ErrorParts& parts() const { return parts_; }
   /// To be asked before `accept`. tolerance: of the control, which weighs places against velocities.
   ErrorLimit limit(double tolerance) const;
-  /// `after` with its nodes displaced by the last measured e_q, and velocities changed by e_q / h.
-  void displace(const State& after, State& to) const;
+  /// Displaces a node, given in space, by the last measured e_q, and changes its velocity by e_q / h.
+  void displace(std::size_t node, elements::NodeMotion& motion) const;
   /// Largest parts of the last measured error over what they are compared with: size + allowance / tolerance [-].
   double relative_motion() const;    ///< of positions and rotations
   double relative_velocity() const;  ///< of velocities
