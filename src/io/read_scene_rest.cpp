@@ -2,9 +2,9 @@
 
 #include "bough/laws/formula.hpp"
 #include "bough/laws/make_law.hpp"
-#include "bough/scene/analysis_kinds.hpp"
 #include "bough/scene/components.hpp"
 #include "named_numbers.hpp"
+#include "read_analysis.hpp"
 #include "read_scene_impl.hpp"
 
 namespace bough::io {
@@ -244,45 +244,9 @@ void Converter::settings() {
     }
   }
   if (const Value* a = sound("analysis")) {
-    scene::Analysis& r = scene.analysis;
-    r.kind = scene::analysis_kind_named(text_or(*a, "kind")).value_or(scene::AnalysisKind::dynamics);
-    r.frame = frame_name(*a);
-    r.load_steps = static_cast<int>(number_or(*a, "load_steps", 1.0));
-    if (const Value* unstable = a->find("unstable")) r.unstable = unstable->truth;
-    if (const Value* start = a->find("start"))
-      r.start = start->text == "equilibrium" ? scene::StartKind::equilibrium : scene::StartKind::given;
-    r.end_time = number_or(*a, "end_time", 0.0);
-    r.step_size = number_or(*a, "step_size", 1e-3);
-    if (const Value* integrator = a->find("integrator"))
-      r.integrator = integrator->text == "variational" ? scene::Integrator::variational
-                     : integrator->text == "bdf"       ? scene::Integrator::bdf
-                                                       : scene::Integrator::generalized_alpha;
-    if (const Value* arc = a->find("arc_length")) {
-      scene::ArcLength& l = r.arc_length.emplace();
-      l.step = number_or(*arc, "step", 0.0);
-      l.largest_step = number_or(*arc, "largest_step", 0.0);
-      l.max_steps = static_cast<int>(arc->find("max_steps")->number);
-      l.end_load_factor = number_or(*arc, "end_load_factor", 1.0);
-      l.after_limit_points = static_cast<int>(number_or(*arc, "after_limit_points", 0.0));
-      l.end_at_limit_point = static_cast<int>(number_or(*arc, "end_at_limit_point", 0.0));
-    }
-    if (const Value* control = a->find("step_control")) {
-      scene::StepControl& c = r.step_control.emplace();
-      c.tolerance = control->find("tolerance")->number;
-      c.position_tolerance = control->find("position_tolerance")->number;
-      c.rotation_tolerance = control->find("rotation_tolerance")->number;
-      c.velocity_tolerance = control->find("velocity_tolerance")->number;
-      c.angular_velocity_tolerance = control->find("angular_velocity_tolerance")->number;
-      c.largest_step = number_or(*control, "largest_step", 0.0);
-    }
+    read_analysis(*a, scene.analysis);
+    scene.analysis.frame = frame_name(*a);
     warn_of_idle_settings(*a);
-    r.spectral_radius = number_or(*a, "spectral_radius", 0.8);
-    r.bdf_order = static_cast<int>(number_or(*a, "bdf_order", 0.0));
-    r.newmark_beta = number_or(*a, "newmark_beta", 0.3);
-    r.newton = text_or(*a, "newton") == "single" ? scene::Newton::single : scene::Newton::full;
-    r.tolerance = number_or(*a, "tolerance", 1e-8);
-    r.max_iterations = static_cast<int>(number_or(*a, "max_iterations", 20.0));
-    r.max_cuts = static_cast<int>(number_or(*a, "max_cuts", 10.0));
   } else {
     defective.push_back("/analysis");
   }

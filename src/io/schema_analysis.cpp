@@ -1,18 +1,78 @@
+#include <algorithm>
+#include <array>
+
+#include "read_analysis.hpp"
 #include "schema_parts.hpp"
 
 namespace bough::io {
 
-void add_analysis_rules(RuleTable& t, const Field& frame) {
-  const std::vector<Field> newton = {
-      may("newton", word_rule("", {"full", "single"}), "full: to convergence. single: one linear solution per step.",
-          "\"full\""),
-      may("tolerance", number_rule("", 0.0, true, 1e-2),
-          "Of relative motions, and of residuals relative to their contributions [-].", "1e-8"),
-      may("max_iterations", integer_rule("", 1, 1000), "Newton's limit per step.", "20"),
-      may("max_cuts", integer_rule("", 0, 60), "Halvings of a step before the run fails.", "10")};
-  std::vector<Field> statics = {
-      may("load_steps", integer_rule("", 1, 1e6), "Steps of the load factor from 0 to 1.", "1")};
-  Rule arc = object_of(
+namespace {
+
+using scene::Analysis;
+using Value = JsonValue;
+
+/// A key of an analysis: its rule, and what its value is to the scene. The value is given, or the default of the rule;
+/// without either the scene keeps its own default.
+struct Option {
+  Field field;
+  void (*read)(const Value& value, Analysis& analysis);
+};
+
+/// What an analysis of one kind is asked. Its name is in the table of kinds.
+struct KindOptions {
+  scene::AnalysisKind kind;
+  Literal about;
+  std::vector<Option> options;
+};
+
+int whole(const Value& v) { return static_cast<int>(v.number); }
+
+/// Sets a number where the object has one for this key.
+void read_number(const Value& object, const char* key, double& number) {
+  if (const Value* v = object.find(key)) number = v->number;
+}
+
+/// The words of a key whose values are a list of kinds, in the order of their numbers.
+template <std::size_t N>
+auto kind_of_word(const std::array<const char*, N>& words, const Value& v) {
+  return static_cast<int>(std::find(words.begin(), words.end(), v.text) - words.begin());
+}
+template <std::size_t N>
+RuleRef rule_of_words(const std::array<const char*, N>& words) {
+  return word_rule("", {words.begin(), words.end()});
+}
+constexpr std::array newton_words{"full", "single"};
+constexpr std::array start_words{"given", "equilibrium"};
+constexpr std::array integrator_words{"generalized_alpha", "variational", "bdf"};
+
+Option max_cuts(Literal about) {
+  return {may("max_cuts", integer_rule("", 0, 60), about, "10"),
+          [](const Value& v, Analysis& a) { a.max_cuts = whole(v); }};
+}
+
+Option end_time() {
+  return {need("end_time", positive(""), "[s]."), [](const Value& v, Analysis& a) { a.end_time = v.number; }};
+}
+
+Option step_size(Literal about) {
+  return {may("step_size", positive(""), about, "1e-3"), [](const Value& v, Analysis& a) { a.step_size = v.number; }};
+}
+
+/// What all analyses are asked that solve equations of equilibrium or of motion.
+std::vector<Option> newton_options() {
+  return {{may("newton", rule_of_words(newton_words), "full: to convergence. single: one linear solution per step.",
+               "\"full\""),
+           [](const Value& v, Analysis& a) { a.newton = static_cast<scene::Newton>(kind_of_word(newton_words, v)); }},
+          {may("tolerance", number_rule("", 0.0, true, 1e-2),
+               "Of relative motions, and of residuals relative to their contributions [-].", "1e-8"),
+           [](const Value& v, Analysis& a) { a.tolerance = v.number; }},
+          {may("max_iterations", integer_rule("", 1, 1000), "Newton's limit per step.", "20"),
+           [](const Value& v, Analysis& a) { a.max_iterations = whole(v); }},
+          max_cuts("Halvings of a step before the run fails.")};
+}
+
+Option arc_length() {
+  Rule rule = object_of(
       "Follows the path of equilibria, past limit points of the load, in steps of equal length (spherical arc length) "
       "instead of load steps. Ends where the load factor passes end_load_factor, or at a limit point.",
       {may("step", number_rule("", 0.0, true, 1.0),
@@ -23,77 +83,134 @@ void add_analysis_rules(RuleTable& t, const Field& frame) {
        may("end_load_factor", number_rule(""), "Where the run ends. Default: 1."),
        may("after_limit_points", integer_rule("", 0, 1000), "Limit points to pass before end_load_factor counts."),
        may("end_at_limit_point", integer_rule("", 1, 1000), "Number of the limit point at which the run ends.")});
-  arc.at_most_one = {{"end_load_factor", "end_at_limit_point"}, {"after_limit_points", "end_at_limit_point"}};
-  statics.push_back(may("arc_length", made(std::move(arc)), "Statics past limit points. Default: load steps."));
-  statics.push_back(may("unstable", boolean_rule(""),
-                        "Unstable equilibria are what is looked for: the run is not doubted because of them.",
-                        "false"));
-  std::vector<Field> dynamics = {
-      need("end_time", positive(""), "[s]."),
-      may("start", word_rule("", {"given", "equilibrium"}),
-          "given: the poses of the scene. equilibrium: the static equilibrium under gravity, loads and efforts at time "
-          "0, relative to `frame` if that moves, with drives and prescribed motions in their places; initial "
-          "velocities "
-          "are added to it.",
-          "\"given\""),
-      may("step_size", positive(""), "h [s].", "1e-3"),
-      may("integrator", word_rule("", {"generalized_alpha", "bdf", "variational"}),
-          "generalized_alpha: second order; damps what is faster than the step. bdf: third order (or second, "
-          "see bdf_order), for smooth motions "
-          "to high accuracy; undamped vibrations of some 3 to 12 steps a period grow at order 3. variational: keeps "
-          "the momentum "
-          "of "
-          "what floats freely to round-off, and energy within a bound where the step "
-          "resolves the fastest vibration; it damps nothing and is not suited to stiff "
-          "scenes with vibrations that the step does not resolve: they ring or grow, and "
-          "a run ends with an error where energy comes out of nothing.",
-          "\"generalized_alpha\""),
-      may("spectral_radius", number_rule("", 0.0, false, 1.0),
-          "Of generalized_alpha at high frequency: 0 damps most, 1 not at all [-].", "0.8"),
-      may("bdf_order", integer_rule("", 2, 3),
-          "Of bdf: 2 damps every vibration, 3 is more accurate where none is undamped. Default: 3, but 2 where the "
-          "start has an "
-          "undamped vibration of 3 to 12 steps a period, which order 3 makes grow; the run says so."),
-      may("newmark_beta", number_rule("", 0.25, false, 1.0),
-          "Of variational, for vibrations: 0.25 is the most accurate; more slows down those faster "
-          "than the step, which is no cure for stiff scenes [-].",
-          "0.3")};
-  dynamics.push_back(may(
-      "step_control",
-      made(object_of(
-          "Step sizes chosen from the local error of each step (generalized_alpha).",
-          {may("tolerance", number_rule("", 0.0, true, 0.1),
-               "Of the sum of local errors over the run, relative to the size of the structure, 1 rad and the "
-               "largest speeds so far [-].",
-               "1e-4"),
-           may("position_tolerance", number_rule("", 0.0), "Allowed beside [m].", "0"),
-           may("rotation_tolerance", number_rule("", 0.0), "Allowed beside [rad].", "0"),
-           may("velocity_tolerance", number_rule("", 0.0), "Allowed beside [m/s].", "0"),
-           may("angular_velocity_tolerance", number_rule("", 0.0), "Allowed beside [rad/s].", "0"),
-           may("largest_step", positive(""), "[s]. Default: a fiftieth of the end time.")})),
-      "Step sizes chosen so that errors follow a tolerance; step_size is then that of the first step. Default: steps "
-      "of equal size."));
-  const std::vector<Field> inverse_dynamics = {
-      need("end_time", positive(""), "[s]."),
-      may("step_size", positive(""),
-          "Distance h of the times 0, h, 2 h, ... at which the motion is evaluated, besides those of expected figures; "
-          "no result depends on it [s].",
-          "1e-3"),
-      may("max_cuts", integer_rule("", 0, 60), "Halvings of the way between two times where parts move far.", "10"),
-      frame};
-  statics.push_back(frame);
-  dynamics.push_back(frame);
-  statics.insert(statics.end(), newton.begin(), newton.end());
-  dynamics.insert(dynamics.end(), newton.begin(), newton.end());
-  t.named["analysis"] = choice_rule(
-      "What is computed.",
-      {made(object_of_kind({"static"}, "Equilibrium at load factors up to 1, or under prescribed motions.", statics)),
-       made(object_of_kind({"dynamic"}, "Motion in time.", dynamics)),
-       made(object_of_kind({"inverse_dynamics"},
-                           "Efforts of drives and reactions for a motion that drives and prescribed motions determine "
-                           "completely, evaluated at given times: nothing is integrated. Refused where a part can "
-                           "still move, bend or follow a state.",
-                           inverse_dynamics))});
+  rule.at_most_one = {{"end_load_factor", "end_at_limit_point"}, {"after_limit_points", "end_at_limit_point"}};
+  return {may("arc_length", made(std::move(rule)), "Statics past limit points. Default: load steps."),
+          [](const Value& v, Analysis& a) {
+            scene::ArcLength& l = a.arc_length.emplace();
+            read_number(v, "step", l.step);
+            read_number(v, "largest_step", l.largest_step);
+            read_number(v, "end_load_factor", l.end_load_factor);
+            l.max_steps = whole(*v.find("max_steps"));
+            if (const Value* after = v.find("after_limit_points")) l.after_limit_points = whole(*after);
+            if (const Value* end = v.find("end_at_limit_point")) l.end_at_limit_point = whole(*end);
+          }};
+}
+
+Option step_control() {
+  Rule rule = object_of("Step sizes chosen from the local error of each step (generalized_alpha).",
+                        {may("tolerance", number_rule("", 0.0, true, 0.1),
+                             "Of the sum of local errors over the run, relative to the size of the structure, 1 rad "
+                             "and the largest speeds so far [-].",
+                             "1e-4"),
+                         may("position_tolerance", number_rule("", 0.0), "Allowed beside [m].", "0"),
+                         may("rotation_tolerance", number_rule("", 0.0), "Allowed beside [rad].", "0"),
+                         may("velocity_tolerance", number_rule("", 0.0), "Allowed beside [m/s].", "0"),
+                         may("angular_velocity_tolerance", number_rule("", 0.0), "Allowed beside [rad/s].", "0"),
+                         may("largest_step", positive(""), "[s]. Default: a fiftieth of the end time.")});
+  return {may("step_control", made(std::move(rule)),
+              "Step sizes chosen so that errors follow a tolerance; step_size is then that of the first step. Default: "
+              "steps of equal size."),
+          [](const Value& v, Analysis& a) {
+            scene::StepControl& c = a.step_control.emplace();
+            read_number(v, "tolerance", c.tolerance);
+            read_number(v, "position_tolerance", c.position_tolerance);
+            read_number(v, "rotation_tolerance", c.rotation_tolerance);
+            read_number(v, "velocity_tolerance", c.velocity_tolerance);
+            read_number(v, "angular_velocity_tolerance", c.angular_velocity_tolerance);
+            read_number(v, "largest_step", c.largest_step);
+          }};
+}
+
+std::vector<Option> static_options() {
+  return {{may("load_steps", integer_rule("", 1, 1e6), "Steps of the load factor from 0 to 1.", "1"),
+           [](const Value& v, Analysis& a) { a.load_steps = whole(v); }},
+          arc_length(),
+          {may("unstable", boolean_rule(""),
+               "Unstable equilibria are what is looked for: the run is not doubted because of them.", "false"),
+           [](const Value& v, Analysis& a) { a.unstable = v.truth; }}};
+}
+
+std::vector<Option> dynamic_options() {
+  return {
+      end_time(),
+      {may("start", rule_of_words(start_words),
+           "given: the poses of the scene. equilibrium: the static equilibrium under gravity, loads and efforts at "
+           "time "
+           "0, relative to `frame` if that moves, with drives and prescribed motions in their places; initial "
+           "velocities are added to it.",
+           "\"given\""),
+       [](const Value& v, Analysis& a) { a.start = static_cast<scene::StartKind>(kind_of_word(start_words, v)); }},
+      step_size("h [s]."),
+      {may("integrator", rule_of_words(integrator_words),
+           "generalized_alpha: second order; damps what is faster than the step. variational: keeps the momentum of "
+           "what floats freely to round-off, and energy within a bound where the step resolves the fastest vibration; "
+           "it damps nothing and is not suited to stiff scenes with vibrations that the step does not resolve: they "
+           "ring or grow, and a run ends with an error where energy comes out of nothing. bdf: third order (or second, "
+           "see bdf_order), for smooth motions to high accuracy; undamped vibrations of some 3 to 12 steps a period "
+           "grow at order 3.",
+           "\"generalized_alpha\""),
+       [](const Value& v, Analysis& a) {
+         a.integrator = static_cast<scene::Integrator>(kind_of_word(integrator_words, v));
+       }},
+      {may("spectral_radius", number_rule("", 0.0, false, 1.0),
+           "Of generalized_alpha at high frequency: 0 damps most, 1 not at all [-].", "0.8"),
+       [](const Value& v, Analysis& a) { a.spectral_radius = v.number; }},
+      {may("bdf_order", integer_rule("", 2, 3),
+           "Of bdf: 2 damps every vibration, 3 is more accurate where none is undamped. Default: 3, but 2 where the "
+           "start has an undamped vibration of 3 to 12 steps a period, which order 3 makes grow; the run says so."),
+       [](const Value& v, Analysis& a) { a.bdf_order = whole(v); }},
+      {may("newmark_beta", number_rule("", 0.25, false, 1.0),
+           "Of variational, for vibrations: 0.25 is the most accurate; more slows down those faster than the step, "
+           "which is no cure for stiff scenes [-].",
+           "0.3"),
+       [](const Value& v, Analysis& a) { a.newmark_beta = v.number; }},
+      step_control()};
+}
+
+std::vector<Option> joined(std::vector<Option> options, const std::vector<Option>& further) {
+  options.insert(options.end(), further.begin(), further.end());
+  return options;
+}
+
+/// What each kind of analysis is asked; schema and reader are made of it.
+const std::vector<KindOptions>& kinds() {
+  using scene::AnalysisKind;
+  static const std::vector<KindOptions> list = {
+      {AnalysisKind::statics, "Equilibrium at load factors up to 1, or under prescribed motions.",
+       joined(static_options(), newton_options())},
+      {AnalysisKind::dynamics, "Motion in time.", joined(dynamic_options(), newton_options())},
+      {AnalysisKind::inverse_dynamics,
+       "Efforts of drives and reactions for a motion that drives and prescribed motions determine completely, "
+       "evaluated "
+       "at given times: nothing is integrated. Refused where a part can still move, bend or follow a state.",
+       {end_time(),
+        step_size("Distance h of the times 0, h, 2 h, ... at which the motion is evaluated, besides those of expected "
+                  "figures; no result depends on it [s]."),
+        max_cuts("Halvings of the way between two times where parts move far.")}}};
+  return list;
+}
+
+}  // namespace
+
+void add_analysis_rules(RuleTable& t, const Field& frame) {
+  std::vector<RuleRef> rules;
+  for (const KindOptions& k : kinds()) {
+    std::vector<Field> fields;
+    for (const Option& o : k.options) fields.push_back(o.field);
+    fields.push_back(frame);
+    rules.push_back(made(object_of_kind({std::string(scene::type_of(k.kind).name)}, k.about, std::move(fields))));
+  }
+  t.named["analysis"] = choice_rule("What is computed.", std::move(rules));
+}
+
+void read_analysis(const Value& v, Analysis& analysis) {
+  const Value* name = v.find("kind");
+  analysis.kind = scene::analysis_kind_named(name->text.str()).value();  // the schema takes no other names
+  analysis.bdf_order = 0;  // in files it is chosen unless it is given
+  for (const KindOptions& k : kinds())
+    if (k.kind == analysis.kind)
+      for (const Option& o : k.options)
+        if (const Value* given = v.find(o.field.key.data())) o.read(*given, analysis);
 }
 
 }  // namespace bough::io

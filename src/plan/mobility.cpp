@@ -205,12 +205,13 @@ std::vector<std::string> find_locked(const SceneLinkage& s) {
 }  // namespace
 
 std::vector<std::string> undriven_motions(const scene::Scene& scene, const Plan& plan) {
-  if (!plan.is_dynamic || scene::type_of(scene.analysis.kind).integrates) return {};
+  const scene::AnalysisType& analysis = scene::type_of(scene.analysis.kind);
+  if (!plan.is_dynamic || analysis.integrates) return {};
   std::vector<std::string> texts;
   const auto add = [&texts](const std::string& text) {
     if (texts.size() < told) texts.push_back(text);
   };
-  const std::string asked = "inverse dynamics takes a motion that drives prescribe completely, but ";
+  const std::string asked = std::string(analysis.title) + " takes a motion that drives prescribe completely, but ";
   const scene::Poses poses(scene);
   const SceneLinkage driven(scene, poses, {.drives_hold = true});  // in space: what the plan leaves out could move
   for (const LinkComponent& c : driven.linkage.solve()) {

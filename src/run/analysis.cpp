@@ -1,9 +1,9 @@
 #include "analysis.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
-#include "bough/scene/analysis_kinds.hpp"
 #include "load_path.hpp"
 #include "load_steps.hpp"
 #include "time_steps.hpp"
@@ -58,15 +58,32 @@ std::vector<double> Analysis::stops_between(double begin, double end) const {
 
 std::unique_ptr<Analysis> make_inverse_dynamics(const Parts& parts);  // inverse_dynamics.cpp
 
-std::unique_ptr<Analysis> make_analysis(const Parts& parts) {
-  const scene::AnalysisKind kind = parts.scene.analysis.kind;
-  if (kind == scene::AnalysisKind::statics) {
-    if (parts.options.arc_length) return std::make_unique<LoadPath>(parts);
-    return std::make_unique<LoadSteps>(parts);
-  }
-  if (kind == scene::AnalysisKind::inverse_dynamics) return make_inverse_dynamics(parts);
+namespace {
+
+std::unique_ptr<Analysis> make_statics(const Parts& parts) {
+  if (parts.options.arc_length) return std::make_unique<LoadPath>(parts);
+  return std::make_unique<LoadSteps>(parts);
+}
+
+std::unique_ptr<Analysis> make_dynamics(const Parts& parts) {
   if (parts.options.step_control) return std::make_unique<ControlledSteps>(parts);
   return std::make_unique<EqualSteps>(parts);
+}
+
+struct Maker {
+  scene::AnalysisKind kind;
+  std::unique_ptr<Analysis> (*make)(const Parts& parts);
+};
+constexpr Maker makers[] = {{scene::AnalysisKind::statics, make_statics},
+                            {scene::AnalysisKind::dynamics, make_dynamics},
+                            {scene::AnalysisKind::inverse_dynamics, make_inverse_dynamics}};
+
+}  // namespace
+
+std::unique_ptr<Analysis> make_analysis(const Parts& parts) {
+  const auto* maker = std::find_if(std::begin(makers), std::end(makers),
+                                   [&](const Maker& m) { return m.kind == parts.scene.analysis.kind; });
+  return maker->make(parts);
 }
 
 }  // namespace bough::run

@@ -4,9 +4,9 @@ namespace bough::scene {
 
 const std::vector<AnalysisType>& analysis_types() {
   static const std::vector<AnalysisType> types = {
-      {AnalysisKind::statics, "static", false, false},
-      {AnalysisKind::dynamics, "dynamic", true, true},
-      {AnalysisKind::inverse_dynamics, "inverse_dynamics", true, false},
+      {AnalysisKind::statics, "static", "statics", false, false},
+      {AnalysisKind::dynamics, "dynamic", "dynamics", true, true},
+      {AnalysisKind::inverse_dynamics, "inverse_dynamics", "inverse dynamics", true, false},
   };
   return types;
 }

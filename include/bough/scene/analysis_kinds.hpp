@@ -1,6 +1,6 @@
 #pragma once
 /// The kinds of analyses as a table. What a kind is in files, checks, plan and options follows from its entry; the
-/// fields that it takes in files stand in the schema of `io`, and what it does in the table of analyses of `run`.
+/// keys that it takes in files stand in a table of `io` (schema_analysis.cpp), and what it does in the table of analyses of `run`.
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -11,9 +11,10 @@ namespace bough::scene {
 
 struct AnalysisType {
   AnalysisKind kind;
-  std::string_view name;  ///< in files
-  bool is_in_time;        ///< parts have velocities and accelerations, laws are functions of time; else of the load
-  bool integrates;        ///< the motion follows from equations of motion, step by step
+  std::string_view name;   ///< in files
+  std::string_view title;  ///< in sentences
+  bool is_in_time;         ///< parts have velocities and accelerations, laws are functions of time; else of the load
+  bool integrates;         ///< the motion follows from equations of motion, step by step
 };
 
 /// All kinds, in the order of their numbers.
