@@ -49,7 +49,7 @@ struct Tension {
 };
 
 /// Throws LawError where the formula cannot be read, or a name has two meanings.
-Tension read_tension(const std::string& text, double rest_length, const std::vector<std::string>& signals) {
+Tension read_tension(const std::string& text, double rest_length, const std::unordered_set<std::string>& signals) {
   Tension t{text, rest_length, {}, false, false};
   std::vector<std::string> names{"length", "stretch", "rate"};
   const std::size_t own = names.size();
@@ -59,11 +59,11 @@ Tension read_tension(const std::string& text, double rest_length, const std::vec
   for (const laws::NamePlace& place : laws::names_in(text)) {
     const std::string name = text.substr(place.position, place.length);
     const bool is_own = std::find(names.begin(), names.begin() + 3, name) != names.begin() + 3;
-    if (is_own && is_in(signals, name))
+    if (is_own && signals.count(name) > 0)
       throw laws::LawError(text, place.position, "\"" + name + "\" means the spring's own here, and a signal too");
     t.has_rate |= name == "rate";
     t.is_elastic |= is_own && name != "rate";
-    if (!is_own && is_in(signals, name) && !is_in(names, name)) names.push_back(name);
+    if (!is_own && signals.count(name) > 0 && !is_in(names, name)) names.push_back(name);
   }
   t.signals.assign(names.begin() + static_cast<std::ptrdiff_t>(own), names.end());
   const laws::Formula formula(text, names);
@@ -149,7 +149,7 @@ std::string servo_text(const JsonValue& v, const scene::Signal& state, const sce
 }  // namespace
 
 void Converter::need_signal(const std::string& name, const std::string& at) {
-  if (std::find(signal_names_.begin(), signal_names_.end(), name) != signal_names_.end()) return;
+  if (known_signals_.count(name) > 0) return;
   const std::string near = scene::nearest_name(name, signal_names_);
   fault(at, "no signal has this name",
         !near.empty()           ? "did you mean \"" + near + "\"?"
@@ -169,7 +169,7 @@ std::string Converter::signal_of(const Value& v, const std::string& at, const st
   own.kind = SignalKind::time;
   own.name = unused_signal_name(name);
   signal = own.name;
-  add(scene.signals, "signals", std::move(own), at);
+  add_signal(std::move(own), at);
   return signal;
 }
 
@@ -191,7 +191,7 @@ void Converter::driven_spring(const Value& v, const std::string& at, const scene
     const std::string at_law = at + "/force_law";
     try {
       if (const Value* formula = law_given->is(JsonKind::object) ? law_given->find("expression") : nullptr)
-        efforts = add_tension(read_tension(formula->text, s.rest_length, signal_names_), s.name, named, made);
+        efforts = add_tension(read_tension(formula->text, s.rest_length, known_signals_), s.name, named, made);
       else
         efforts = {add_elastic(law(*law_given, at_law), named, made)};
     } catch (const laws::LawError& e) {
@@ -221,16 +221,14 @@ void Converter::driven_spring(const Value& v, const std::string& at, const scene
     made.push_back(std::move(force));
   }
   add(scene.joints, "joints", strut_of(s, efforts), at);
-  for (scene::Signal& signal : made) add(scene.signals, "signals", std::move(signal), at);
+  for (scene::Signal& signal : made) add_signal(std::move(signal), at);
 }
 
 /// The joint of this name, which was read before; nullptr, told, if there is none.
 scene::Joint* Converter::joint_to_drive(const std::string& name, const std::string& at) {
+  if (scene::Joint* joint = joint_named(name)) return joint;
   std::vector<std::string> names;
-  for (scene::Joint& joint : scene.joints) {
-    if (joint.name == name) return &joint;
-    names.push_back(joint.name);
-  }
+  for (const scene::Joint& joint : scene.joints) names.push_back(joint.name);
   left_out_ |= std::find(defective.begin(), defective.end(), name) != defective.end();
   const std::string near = scene::nearest_name(name, names);
   if (!left_out_) fault(at, "no joint has this name", near.empty() ? "" : "did you mean \"" + near + "\"?");
@@ -283,7 +281,7 @@ void Converter::actuator(const Value& v, const std::string& at) {
   effort.inputs = {state.name};
   effort.formula = laws::Formula(in_brackets(limit) + "*" + state.name, effort.inputs);
   joint->forces.push_back({coordinate, 0.0, 0.0, 0.0, {}, name});
-  for (scene::Signal* signal : {&way, &rate, &state, &effort}) add(scene.signals, "signals", std::move(*signal), at);
+  for (scene::Signal* signal : {&way, &rate, &state, &effort}) add_signal(std::move(*signal), at);
 }
 
 /// Gravity whose factor or components signals give: it is made of weights (weigh).
@@ -317,6 +315,8 @@ void Converter::driven_gravity(const Value& v) {
 void Converter::weigh() {
   faults_before_ = faults.size();
   left_out_ = false;
+  std::unordered_map<std::string_view, const scene::Section*> section_of;
+  for (const scene::Section& section : scene.sections) section_of.emplace(section.name, &section);
   for (const Weight& w : weights_) {
     for (const scene::Body& body : scene.bodies) {
       if (!(body.mass > 0.0)) continue;
@@ -330,9 +330,9 @@ void Converter::weigh() {
       add(scene.point_loads, "point_loads", std::move(load), "/gravity");
     }
     for (const scene::Beam& beam : scene.beams) {
-      const auto section = std::find_if(scene.sections.begin(), scene.sections.end(),
-                                        [&](const scene::Section& s) { return s.name == beam.section; });
-      if (section == scene.sections.end() || !(section->mass(0, 0) > 0.0)) continue;
+      const auto known = section_of.find(beam.section);
+      if (known == section_of.end() || !(known->second->mass(0, 0) > 0.0)) continue;
+      const scene::Section* section = known->second;
       for (int i = 0; i < 3; ++i)
         for (int j = 3; j < 6; ++j)
           if (section->mass(i, j) != 0.0 && faults.size() == faults_before_)

@@ -79,6 +79,8 @@ class Converter : private ValueConverter {
   void signal_formula(const Value& v, const std::string& at, scene::Signal& s);
   void signal_surface(const Value& v, const std::string& at, scene::Signal& s);
   std::string unused_signal_name(std::string name);
+  void add_signal(scene::Signal signal, const std::string& at);
+  scene::Joint* joint_named(const std::string& name);
   void take_in_units(const Value& v, const std::string& at, double nominal, scene::Signal& s);
   void reaction(const Value& component, const std::string& at, scene::Signal s);
   void signal(const Value& v, const std::string& at);
@@ -141,9 +143,14 @@ class Converter : private ValueConverter {
   std::unordered_set<std::string> defective_materials_;       ///< omitted; their faults were reported
   std::unordered_set<std::string> names_;                     ///< all names given in the file
   std::unordered_set<std::string> measure_names_;
-  std::vector<std::string> signal_names_;      ///< of all signals of the document
-  std::vector<std::string> own_signal_names_;  ///< of those that the reader makes
-  std::vector<Weight> weights_;                ///< gravity that is made of loads
+  std::vector<std::string> signal_names_;                  ///< of all signals of the document
+  std::unordered_set<std::string> known_signals_;          ///< the same, to look them up
+  std::unordered_set<std::string> taken_signal_names_;     ///< of these and of those that the reader makes
+  std::unordered_set<std::string> springs_;                ///< names of all springs of the document
+  std::unordered_map<std::string, std::size_t> joint_of_;  ///< first joint of each name, of those indexed so far
+  std::size_t num_joints_indexed_ = 0;
+  std::unordered_map<std::string, std::string> effort_of_;  ///< by joint: the first signal that reads an effort of it
+  std::vector<Weight> weights_;                             ///< gravity that is made of loads
   int unnamed_ = 0;
   std::optional<scene::Poses> poses_;
 };

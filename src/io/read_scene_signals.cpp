@@ -15,26 +15,43 @@ namespace {
 
 using scene::SignalKind;
 
-bool has_item_named(const JsonValue* list, const std::string& name) {
-  return list != nullptr && list->is(JsonKind::array) &&
-         std::any_of(list->items.begin(), list->items.end(), [&name](const JsonValue& item) {
-           const JsonValue* of_item = item.is(JsonKind::object) ? item.find("name") : nullptr;
-           return of_item != nullptr && of_item->is(JsonKind::string) && of_item->text.str() == name;
-         });
+/// Calls visit(name) for the names of a list of the document.
+template <class Visit>
+void for_each_name(const JsonValue* list, const Visit& visit) {
+  if (list == nullptr || !list->is(JsonKind::array)) return;
+  for (const JsonValue& item : list->items)
+    if (const JsonValue* name = item.is(JsonKind::object) ? item.find("name") : nullptr;
+        name != nullptr && name->is(JsonKind::string))
+      visit(name->text.str());
 }
 
 }  // namespace
 
-/// Names of all signals of the document that formulas can call.
+/// Names of all signals of the document that formulas can call, and those of springs.
 void Converter::find_signal_names() {
-  for (const char* key : {"signals", "actuators"}) {
-    const Value* list = root_.find(key);
-    if (list == nullptr || !list->is(JsonKind::array)) continue;
-    for (const Value& item : list->items)
-      if (const Value* name = item.is(JsonKind::object) ? item.find("name") : nullptr;
-          name != nullptr && name->is(JsonKind::string) && scene::is_signal_name(name->text.str()))
-        signal_names_.push_back(name->text);
-  }
+  for (const char* key : {"signals", "actuators"})
+    for_each_name(root_.find(key), [this](const std::string& name) {
+      if (scene::is_signal_name(name)) signal_names_.push_back(name);
+    });
+  known_signals_.insert(signal_names_.begin(), signal_names_.end());
+  taken_signal_names_ = known_signals_;
+  for_each_name(root_.find("springs"), [this](const std::string& name) { springs_.insert(name); });
+}
+
+/// The first joint of this name among those read so far; nullptr if there is none.
+scene::Joint* Converter::joint_named(const std::string& name) {
+  for (; num_joints_indexed_ < scene.joints.size(); ++num_joints_indexed_)
+    joint_of_.emplace(scene.joints[num_joints_indexed_].name, num_joints_indexed_);
+  const auto joint = joint_of_.find(name);
+  return joint == joint_of_.end() ? nullptr : &scene.joints[joint->second];
+}
+
+void Converter::add_signal(scene::Signal signal, const std::string& at) {
+  const std::size_t before = scene.signals.size();
+  add(scene.signals, "signals", std::move(signal), at);
+  if (scene.signals.size() == before) return;
+  if (const scene::Signal& s = scene.signals.back(); s.kind == SignalKind::joint_effort)
+    effort_of_.emplace(s.joint, s.name);
 }
 
 /// The formula of a signal, in the values of those signals that it names.
@@ -42,8 +59,8 @@ void Converter::signal_formula(const Value& v, const std::string& at, scene::Sig
   const std::string text = v.find("expression")->text;
   for (const laws::NamePlace& place : laws::names_in(text)) {
     const std::string name = text.substr(place.position, place.length);
-    const bool is_signal = std::find(signal_names_.begin(), signal_names_.end(), name) != signal_names_.end();
-    if (is_signal && std::find(s.inputs.begin(), s.inputs.end(), name) == s.inputs.end()) s.inputs.push_back(name);
+    if (known_signals_.count(name) > 0 && std::find(s.inputs.begin(), s.inputs.end(), name) == s.inputs.end())
+      s.inputs.push_back(name);
   }
   try {
     s.formula = laws::Formula(text, s.inputs);
@@ -84,11 +101,7 @@ void Converter::signal_surface(const Value& v, const std::string& at, scene::Sig
 
 /// A word that no signal of the document has.
 std::string Converter::unused_signal_name(std::string name) {
-  const auto is_in = [&name](const std::vector<std::string>& list) {
-    return std::find(list.begin(), list.end(), name) != list.end();
-  };
-  while (is_in(signal_names_) || is_in(own_signal_names_)) name += "_";
-  own_signal_names_.push_back(name);
+  while (!taken_signal_names_.insert(name).second) name += "_";
   return name;
 }
 
@@ -105,7 +118,7 @@ void Converter::take_in_units(const Value& v, const std::string& at, double nomi
   s.inputs = {in_units.name};
   s.formula = laws::Formula(unit + "*" + in_units.name, s.inputs);
   s.start = 0.0;
-  add(scene.signals, "signals", std::move(in_units), at);
+  add_signal(std::move(in_units), at);
 }
 
 /// A component of a reaction is the multiplier of a row with the sign changed, as an effort is; where its own sign is
@@ -113,18 +126,16 @@ void Converter::take_in_units(const Value& v, const std::string& at, double nomi
 void Converter::reaction(const Value& component, const std::string& at, scene::Signal s) {
   s.kind = SignalKind::joint_effort;
   s.coordinate = component.text;
-  const auto joint = std::find_if(scene.joints.begin(), scene.joints.end(),
-                                  [&s](const scene::Joint& other) { return other.name == s.joint; });
-  const auto row =
-      joint == scene.joints.end() ? std::nullopt : scene::reaction_row(scene::type_of(joint->kind), s.coordinate);
+  const scene::Joint* joint = joint_named(s.joint);
+  const auto row = joint == nullptr ? std::nullopt : scene::reaction_row(scene::type_of(joint->kind), s.coordinate);
   if (row && row->sign > 0.0) {
     scene::Signal turned;
     turned.name = std::exchange(s.name, unused_signal_name(s.name + "_turned"));
     turned.inputs = {s.name};
     turned.formula = laws::Formula("-" + s.name, turned.inputs);
-    add(scene.signals, "signals", std::move(turned), at);
+    add_signal(std::move(turned), at);
   }
-  add(scene.signals, "signals", std::move(s), at);
+  add_signal(std::move(s), at);
 }
 
 void Converter::signal(const Value& v, const std::string& at) {
@@ -147,30 +158,26 @@ void Converter::signal(const Value& v, const std::string& at) {
     s.axis = v.find("axis")->text.str().front() - 'x';
     s.frame = frame_name(v);
   }
-  const auto is_strut_of_spring = [&s](const scene::Joint& joint) { return joint.name == s.spring; };
-  if (s.kind == SignalKind::spring_tension && has_item_named(root_.find("springs"), s.spring) &&
-      std::any_of(scene.joints.begin(), scene.joints.end(), is_strut_of_spring)) {
+  if (s.kind == SignalKind::spring_tension && springs_.count(s.spring) > 0 && joint_named(s.spring) != nullptr) {
     // A spring with more than constants: its tension is minus all that acts along its strut.
-    const auto known = std::find_if(scene.signals.begin(), scene.signals.end(), [&s](const scene::Signal& other) {
-      return other.kind == SignalKind::joint_effort && other.joint == s.spring;
-    });
+    const auto known = effort_of_.find(s.spring);
     scene::Signal effort;
     effort.kind = SignalKind::joint_effort;
     effort.joint = s.spring;
-    effort.name = known != scene.signals.end() ? known->name : unused_signal_name(s.name + "_effort");
+    effort.name = known != effort_of_.end() ? known->second : unused_signal_name(s.name + "_effort");
     s.kind = SignalKind::formula;
     s.spring.clear();
     s.inputs = {effort.name};
     s.formula = laws::Formula("-" + effort.name, s.inputs);
-    if (known == scene.signals.end()) add(scene.signals, "signals", std::move(effort), at);
-    return add(scene.signals, "signals", std::move(s), at);
+    if (known == effort_of_.end()) add_signal(std::move(effort), at);
+    return add_signal(std::move(s), at);
   }
   if (const Value* given = v.find("law")) s.law = law(*given, at + "/law");
   if (s.kind == SignalKind::formula || s.kind == SignalKind::state) signal_formula(v, at, s);
   if (!s.of.empty()) s.inputs.assign(1, s.of);
   if (const double nominal = number_or(v, "nominal", 1.0); nominal != 1.0 && faults.size() == faults_before_)
     take_in_units(v, at, nominal, s);
-  add(scene.signals, "signals", std::move(s), at);
+  add_signal(std::move(s), at);
 }
 
 /// The law of a drive, an effort or a load, unless a signal is named in its place.

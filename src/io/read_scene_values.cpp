@@ -2,6 +2,7 @@
 
 #include "bough/laws/make_law.hpp"
 #include "bough/motion/se3.hpp"
+#include "law_kinds.hpp"
 #include "read_scene_impl.hpp"
 
 namespace bough::io {
@@ -125,7 +126,11 @@ laws::Law ValueConverter::law(const Value& v, const std::string& at) {
   if (v.is(JsonKind::number)) return laws::make_constant(v.number);
   try {
     if (const Value* formula = v.find("expression")) return laws::make_expression(formula->text);
-    return law_of_kind(v, at);
+    const std::string& name = v.find("kind")->text;
+    for (const LawKind& kind : law_kinds())
+      if (kind.name == name)
+        return kind.make(v, at, [this](const Value& part, const std::string& there) { return law(part, there); });
+    return {};  // the rules take no other names
   } catch (const laws::LawError& e) {
     if (const Value* formula = v.find("expression"))
       fault(at + "/expression", e.what(),
@@ -135,57 +140,6 @@ laws::Law ValueConverter::law(const Value& v, const std::string& at) {
       fault(at, e.what());
     return {};
   }
-}
-
-std::vector<laws::Law> ValueConverter::law_list(const Value& v, const std::string& at) {
-  std::vector<laws::Law> r;
-  for (std::size_t i = 0; i < v.items.size(); ++i) r.push_back(law(v.items[i], at + "/" + std::to_string(i)));
-  return r;
-}
-
-laws::Law ValueConverter::law_table(const Value& v) const {
-  std::vector<double> times, values;
-  for (const Value& t : v.find("times")->items) times.push_back(t.number);
-  for (const Value& x : v.find("values")->items) values.push_back(x.number);
-  const std::string& way = v.find("interpolation")->text;
-  return laws::make_table(times, values,
-                          way == "cubic"      ? laws::Interpolation::cubic
-                          : way == "monotone" ? laws::Interpolation::monotone
-                                              : laws::Interpolation::linear);
-}
-
-namespace {
-
-/// Multiplies neighbours in pairs, so that a product of thousands of factors is not nested thousands of levels deep.
-laws::Law product_of(std::vector<laws::Law> factors) {
-  for (; factors.size() > 1; factors.resize((factors.size() + 1) / 2))
-    for (std::size_t i = 0; i < factors.size(); i += 2)
-      factors[i / 2] = i + 1 < factors.size() ? laws::make_product(factors[i], factors[i + 1]) : factors[i];
-  return factors.front();
-}
-
-}  // namespace
-
-laws::Law ValueConverter::law_of_kind(const Value& v, const std::string& at) {
-  const std::string& kind = v.find("kind")->text;
-  const auto get = [&](const char* key) { return v.find(key)->number; };
-  if (kind == "constant") return laws::make_constant(get("value"));
-  if (kind == "ramp") return laws::make_ramp(get("start_time"), get("end_time"), get("from"), get("to"));
-  if (kind == "smooth_ramp") return laws::make_smooth_ramp(get("start_time"), get("end_time"), get("from"), get("to"));
-  if (kind == "cycloidal") return laws::make_cycloidal(get("start_time"), get("end_time"), get("from"), get("to"));
-  if (kind == "harmonic") return laws::make_harmonic(get("amplitude"), get("omega"), get("phase"), get("offset"));
-  if (kind == "table") return law_table(v);
-  if (kind == "sum") return laws::make_sum(law_list(*v.find("terms"), at + "/terms"));
-  if (kind == "scaled") return laws::make_scaled(get("factor"), law(*v.find("law"), at + "/law"));
-  if (kind == "product") {
-    return product_of(law_list(*v.find("factors"), at + "/factors"));
-  }
-  std::vector<laws::Segment> pieces;
-  const Value& list = *v.find("pieces");
-  for (std::size_t i = 0; i < list.items.size(); ++i)
-    pieces.push_back({list.items[i].find("start")->number,
-                      law(*list.items[i].find("law"), at + "/pieces/" + std::to_string(i) + "/law")});
-  return laws::make_piecewise(pieces);
 }
 
 }  // namespace bough::io

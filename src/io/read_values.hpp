@@ -54,9 +54,6 @@ class ValueConverter {
   scene::Mat3 rotation_from_axes(const Value& axes, const std::string& at);
   scene::Placement placement(const Value& v, const std::string& at);
   laws::Law law(const Value& v, const std::string& at);
-  laws::Law law_of_kind(const Value& v, const std::string& at);
-  laws::Law law_table(const Value& v) const;
-  std::vector<laws::Law> law_list(const Value& v, const std::string& at);
   void warn_of_degrees(const Value& angle, const std::string& at);
 
   void fault(const std::string& at, std::string rule, std::string hint = {}, std::string value = {}) {

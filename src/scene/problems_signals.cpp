@@ -15,11 +15,18 @@ namespace {
 class SignalNames {
  public:
   explicit SignalNames(ProblemList& list) : list_(list) {
-    for (const Signal& s : list.scene.signals) names_.push_back(s.name);
-    known_.insert(names_.begin(), names_.end());
+    for (std::size_t i = 0; i < list.scene.signals.size(); ++i) {
+      names_.push_back(list.scene.signals[i].name);
+      index_of_.emplace(names_.back(), i);
+    }
+  }
+  /// The first signal of this name; nullptr if there is none.
+  const Signal* find(const std::string& name) const {
+    const auto known = index_of_.find(name);
+    return known == index_of_.end() ? nullptr : &list_.scene.signals[known->second];
   }
   void check(const char* section, std::size_t i, const std::string& key, const std::string& name) {
-    if (name.empty() || known_.count(name) > 0 || list_.is_defective(name)) return;
+    if (name.empty() || find(name) != nullptr || list_.is_defective(name)) return;
     const std::string near = list_.nearest(name, names_);
     list_.add(section, i, key, name, "no signal has this name",
               !near.empty()    ? "did you mean \"" + near + "\"?"
@@ -30,15 +37,12 @@ class SignalNames {
  private:
   ProblemList& list_;
   std::vector<std::string> names_;
-  std::unordered_set<std::string> known_;
+  std::unordered_map<std::string, std::size_t> index_of_;
 };
 
 void check_joint_of(ProblemList& list, std::size_t i, const Signal& s) {
   if (!list.check_reference("signals", i, "joint", s.joint, list.joints, "joint")) return;
-  const auto joint = std::find_if(list.scene.joints.begin(), list.scene.joints.end(),
-                                  [&](const Joint& j) { return j.name == s.joint; });
-  if (joint == list.scene.joints.end()) return;
-  const JointType& type = type_of(joint->kind);
+  const JointType& type = type_of(list.scene.joints[list.poses.find(s.joint)->index].kind);
   if (reads_reaction(s)) {
     if (!reaction_row(type, s.coordinate))
       list.add(
@@ -58,10 +62,11 @@ void check_joint_of(ProblemList& list, std::size_t i, const Signal& s) {
                  ": name one of them as coordinate");
 }
 
-void check_spring_of(ProblemList& list, std::size_t i, const Signal& s) {
+void check_spring_of(ProblemList& list, const std::unordered_set<std::string_view>& known, std::size_t i,
+                     const Signal& s) {
+  if (known.count(s.spring) > 0 || list.is_defective(s.spring)) return;
   std::vector<std::string> springs;
   for (const Spring& spring : list.scene.springs) springs.push_back(spring.name);
-  if (std::find(springs.begin(), springs.end(), s.spring) != springs.end() || list.is_defective(s.spring)) return;
   const std::string near = list.nearest(s.spring, springs);
   list.add("signals", i, "spring", s.spring, "no spring has this name",
            !near.empty()     ? "did you mean \"" + near + "\"?"
@@ -70,13 +75,17 @@ void check_spring_of(ProblemList& list, std::size_t i, const Signal& s) {
 }
 
 /// Two signals that read one effort are one number twice.
-void check_twin_efforts(ProblemList& list, std::size_t i) {
-  const Signal& s = list.scene.signals[i];
-  for (std::size_t k = 0; k < i; ++k)
-    if (const Signal& other = list.scene.signals[k];
-        other.kind == s.kind && other.joint == s.joint && other.coordinate == s.coordinate)
-      return list.add("signals", i, "joint", s.joint, "signal '" + other.name + "' is this effort already",
-                      "take its name");
+void check_twin_efforts(ProblemList& list) {
+  std::unordered_map<std::string, std::size_t> first_of;
+  const std::vector<Signal>& signals = list.scene.signals;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    if (signals[i].kind != SignalKind::joint_effort) continue;
+    const auto [first, is_new] =
+        first_of.emplace(signals[i].joint + '/' + signals[i].coordinate, i);  // names have no /
+    if (!is_new)
+      list.add("signals", i, "joint", signals[i].joint,
+               "signal '" + signals[first->second].name + "' is this effort already", "take its name");
+  }
 }
 
 /// Signals that wait for each other without a state between them have no value that follows from the motion alone.
@@ -86,18 +95,19 @@ void check_circles(ProblemList& list) {
   if (order.size() == signals.size()) return;
   std::vector<bool> is_known(signals.size(), false);
   for (const std::size_t i : order) is_known[i] = true;
-  const auto is_waited_for = [&](std::size_t i) {
-    for (std::size_t k = 0; k < signals.size(); ++k)
-      if (!is_known[k]) {
-        const std::vector<std::string> inputs = present_inputs(list.scene, signals[k]);
-        if (std::count(inputs.begin(), inputs.end(), signals[i].name) > 0) return true;
-      }
-    return false;
-  };
-  for (bool changes = true; changes;) {  // what follows from the circle without being part of it
-    changes = false;
-    for (std::size_t i = 0; i < signals.size(); ++i)
-      if (!is_known[i] && !is_waited_for(i)) is_known[i] = changes = true;
+  const std::vector<std::vector<std::size_t>> inputs = present_inputs(list.scene);
+  std::vector<std::size_t> waiting(signals.size(), 0);  // for each signal: how many of the others that are not known
+  for (std::size_t k = 0; k < signals.size(); ++k)
+    for (const std::size_t input : inputs[k]) waiting[input] += is_known[k] ? 0 : 1;
+  std::vector<std::size_t> leaves;  // what follows from the circle without being part of it
+  for (std::size_t i = 0; i < signals.size(); ++i)
+    if (!is_known[i] && waiting[i] == 0) leaves.push_back(i);
+  while (!leaves.empty()) {
+    const std::size_t leaf = leaves.back();
+    leaves.pop_back();
+    is_known[leaf] = true;
+    for (const std::size_t input : inputs[leaf])
+      if (--waiting[input] == 0 && !is_known[input]) leaves.push_back(input);
   }
   std::string names;
   std::size_t first = signals.size();
@@ -150,18 +160,17 @@ class SignalLevels {
 };
 
 /// A row that starts away from the state that drives it is closed at the start, which moves parts.
-void check_start(ProblemList& list, const char* section, std::size_t i, const std::string& key, const std::string& name,
-                 double stands, double scale, bool turns) {
-  for (const Signal& s : list.scene.signals) {
-    if (s.name != name || s.kind != SignalKind::state || !list.is_dynamic ||
-        list.scene.analysis.start == StartKind::equilibrium)
-      continue;
-    const double jump = s.start - stands;
-    if (std::abs(turns ? std::remainder(jump, 2.0 * 3.14159265358979323846) : jump / scale) > 1e-9)
-      list.warn(section, i, key, name,
-                "the state starts at " + text_of(s.start) + ", and what it drives at " + text_of(stands),
-                "let it start there");
-  }
+void check_start(ProblemList& list, const SignalNames& names, const char* section, std::size_t i,
+                 const std::string& key, const std::string& name, double stands, double scale, bool turns) {
+  const Signal* s = names.find(name);
+  if (s == nullptr || s->kind != SignalKind::state || !list.is_dynamic ||
+      list.scene.analysis.start == StartKind::equilibrium)
+    return;
+  const double jump = s->start - stands;
+  if (std::abs(turns ? std::remainder(jump, 2.0 * 3.14159265358979323846) : jump / scale) > 1e-9)
+    list.warn(section, i, key, name,
+              "the state starts at " + text_of(s->start) + ", and what it drives at " + text_of(stands),
+              "let it start there");
 }
 
 /// Drives of joints and prescribed motions.
@@ -186,7 +195,7 @@ void check_driven_rows(ProblemList& list, SignalNames& names, SignalLevels& leve
       const JointCoordinate* coordinate = type_of(joint.kind).coordinate(drive.coordinate);
       const auto a = list.poses.of(joint.first), b = list.poses.of(joint.second);
       if (!drive.signal.empty() && a && b && coordinate != nullptr)
-        check_start(list, "joints", i, key + "/signal", drive.signal,
+        check_start(list, names, "joints", i, key + "/signal", drive.signal,
                     eval_row({coordinate->kind}, joint.pitch, motion::relative(*a, *b)).value, list.size,
                     !coordinate->is_length());
     }
@@ -196,11 +205,11 @@ void check_driven_rows(ProblemList& list, SignalNames& names, SignalLevels& leve
     const PrescribedMotion& m = scene.motions[i];
     for (int k = 0; k < 3; ++k) {
       check("motions", i, axes[k], m.displacement_signal[k], m.is_rate);
-      check_start(list, "motions", i, std::string(axes[k]) + "/signal", m.displacement_signal[k], 0.0, list.size,
+      check_start(list, names, "motions", i, std::string(axes[k]) + "/signal", m.displacement_signal[k], 0.0, list.size,
                   false);
     }
     check("motions", i, "rotation/angle", m.angle_signal, m.is_rate);
-    check_start(list, "motions", i, "rotation/angle/signal", m.angle_signal, 0.0, 1.0, true);
+    check_start(list, names, "motions", i, "rotation/angle/signal", m.angle_signal, 0.0, 1.0, true);
   }
 }
 
@@ -223,13 +232,15 @@ void check_signals(ProblemList& list) {
   const Scene& scene = list.scene;
   SignalNames names(list);
   SignalLevels levels(list);
+  std::unordered_set<std::string_view> springs;
+  for (const Spring& spring : scene.springs) springs.insert(spring.name);
+  check_twin_efforts(list);
   for (std::size_t i = 0; i < scene.signals.size(); ++i) {
     const Signal& s = scene.signals[i];
     if (!is_signal_name(s.name))
       list.add("signals", i, "name", s.name, "formulas cannot call a signal by this name",
                "a letter or _, then letters, digits and _; not pi, e, t or a function");
     if (reads_joint(s.kind)) check_joint_of(list, i, s);
-    if (s.kind == SignalKind::joint_effort) check_twin_efforts(list, i);
     if (reads_point(s.kind)) {
       list.check_place("signals", i, "at", s.at.to, false);
       if (!s.frame.empty()) list.check_place("signals", i, "frame", s.frame, true);
@@ -240,7 +251,7 @@ void check_signals(ProblemList& list) {
     if (s.kind == SignalKind::surface)
       for (std::size_t k = 0; k < s.inputs.size(); ++k)
         names.check("signals", i, "of/" + std::to_string(k), s.inputs[k]);
-    if (s.kind == SignalKind::spring_tension) check_spring_of(list, i, s);
+    if (s.kind == SignalKind::spring_tension) check_spring_of(list, springs, i, s);
     if (s.kind == SignalKind::time) list.check_law("signals", i, "law", s.law, false);
   }
   for (std::size_t i = 0; i < scene.sensors.size(); ++i)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -11,27 +12,29 @@ namespace bough::scene {
 
 namespace {
 
-constexpr std::array<std::pair<SignalKind, std::string_view>, 13> kinds{
-    {{SignalKind::joint_angle, "joint_angle"},
-     {SignalKind::joint_displacement, "joint_displacement"},
-     {SignalKind::joint_rate, "joint_rate"},
-     {SignalKind::joint_effort, "joint_effort"},
-     {SignalKind::spring_tension, "spring_tension"},
-     {SignalKind::position, "position"},
-     {SignalKind::velocity, "velocity"},
-     {SignalKind::time, "time"},
-     {SignalKind::function, "function"},
-     {SignalKind::surface, "surface"},
-     {SignalKind::formula, "formula"},
-     {SignalKind::state, "state"},
-     {SignalKind::input, "input"}}};
+/// The first part of each name.
+template <class Part>
+class Named {
+ public:
+  explicit Named(const std::vector<Part>& parts) {
+    for (const Part& part : parts) of_.emplace(part.name, &part);
+  }
+  /// nullptr if there is none.
+  const Part* find(const std::string& name) const {
+    const auto part = of_.find(name);
+    return part == of_.end() ? nullptr : part->second;
+  }
 
-/// The joint of this name; nullptr if there is none.
-const Joint* joint_named(const Scene& scene, const std::string& name) {
-  const auto joint =
-      std::find_if(scene.joints.begin(), scene.joints.end(), [&](const Joint& j) { return j.name == name; });
-  return joint == scene.joints.end() ? nullptr : &*joint;
-}
+ private:
+  std::unordered_map<std::string_view, const Part*> of_;
+};
+
+/// Parts that signals read.
+struct PartsRead {
+  explicit PartsRead(const Scene& scene) : joints(scene.joints), springs(scene.springs) {}
+  Named<Joint> joints;
+  Named<Spring> springs;
+};
 
 /// Whether a drive or a force of a joint is along the coordinate that a signal reads.
 template <class Along>
@@ -42,16 +45,112 @@ bool acts_along(const Along& given, const JointType& type, const JointCoordinate
 
 }  // namespace
 
-std::string to_string(SignalKind kind) {
-  return std::string(
-      std::find_if(kinds.begin(), kinds.end(), [kind](const auto& entry) { return entry.first == kind; })->second);
+const std::vector<SignalType>& signal_types() {
+  using Field = SignalField;
+  using Kind = SignalKind;
+  using Reads = SignalReads;
+  static const std::vector<SignalType> types = {
+      {Kind::joint_angle, "joint_angle", Reads::joint, 0, {Field::joint}, "rad", "Angle of a joint, counting turns."},
+      {Kind::joint_displacement,
+       "joint_displacement",
+       Reads::joint,
+       0,
+       {Field::joint},
+       "m",
+       "Displacement of a joint."},
+      {Kind::joint_rate,
+       "joint_rate",
+       Reads::joint,
+       1,
+       {Field::joint, Field::coordinate},
+       "rad/s or m/s",
+       "Rate of a joint's coordinate; in statics 0."},
+      {Kind::joint_effort,
+       "joint_effort",
+       Reads::joint,
+       2,
+       {Field::joint, Field::coordinate},
+       "N m or N",
+       "Torque or force on the second along a coordinate, of all that acts along it: springs, dampers, efforts, a "
+       "drive, a rod."},
+      {Kind::spring_tension,
+       "spring_tension",
+       Reads::spring,
+       1,
+       {Field::spring},
+       "N",
+       "Tension of a spring, with its damper and all else that it has."},
+      {Kind::position,
+       "position",
+       Reads::point,
+       0,
+       {Field::point, Field::frame},
+       "m",
+       "Component of a point's position, seen from a frame."},
+      {Kind::velocity,
+       "velocity",
+       Reads::point,
+       1,
+       {Field::point, Field::frame},
+       "m/s",
+       "Component of a point's velocity, seen from a frame; in statics 0."},
+      {Kind::time, "time", Reads::nothing, -1, {Field::law}, "of the law", "A law of time."},
+      {Kind::function,
+       "function",
+       Reads::nothing,
+       -1,
+       {Field::of, Field::law},
+       "of the law",
+       "A law with another signal in the place of time: a table, a ramp."},
+      {Kind::surface,
+       "surface",
+       Reads::nothing,
+       -1,
+       {Field::table},
+       "of the values",
+       "A table of two signals, bilinear between its points; outside the value of the nearest point."},
+      {Kind::formula,
+       "formula",
+       Reads::nothing,
+       -1,
+       {Field::expression},
+       "of the formula",
+       "A formula of other signals and of parameters, as laws have, but without t."},
+      {Kind::state,
+       "state",
+       Reads::nothing,
+       -1,
+       {Field::expression, Field::start, Field::nominal},
+       "of the formula, times s",
+       "x' = formula of signals, x included: integrators, lags, bristles. Integrated with the motion, to the same "
+       "order. In statics, and in the equilibrium at a start, x' = 0."},
+      {Kind::input,
+       "input",
+       Reads::nothing,
+       -1,
+       {Field::start},
+       "its own",
+       "A number that a program sets between steps (Simulation::set_input); where none does, as in `bough run`, it "
+       "keeps its start."},
+      {Kind::joint_effort,
+       "joint_reaction",
+       Reads::joint,
+       2,
+       {Field::joint, Field::component},
+       "N or N m",
+       "Component of the reaction of the first on the second in what the joint holds, about the second's joint frame "
+       "and in the axes of the first's."}};
+  return types;
 }
 
+const SignalType& type_of(SignalKind kind) { return signal_types().at(static_cast<std::size_t>(kind)); }
+
+std::string to_string(SignalKind kind) { return std::string(type_of(kind).name); }
+
 std::optional<SignalKind> signal_kind_named(std::string_view name) {
-  const auto* const entry =
-      std::find_if(kinds.begin(), kinds.end(), [name](const auto& e) { return e.second == name; });
-  if (entry == kinds.end()) return std::nullopt;
-  return entry->first;
+  for (const SignalType& type : signal_types())
+    if (type.name == name) return type.kind;
+  return std::nullopt;
 }
 
 bool is_signal_name(std::string_view name) {
@@ -104,14 +203,17 @@ std::optional<ReactionRow> reaction_row(const JointType& joint, std::string_view
   return std::nullopt;
 }
 
-bool reads_joint(SignalKind kind) { return kind <= SignalKind::joint_effort; }
-bool reads_point(SignalKind kind) { return kind == SignalKind::position || kind == SignalKind::velocity; }
+bool reads_joint(SignalKind kind) { return type_of(kind).reads == SignalReads::joint; }
+bool reads_point(SignalKind kind) { return type_of(kind).reads == SignalReads::point; }
 
-std::vector<std::string> present_inputs(const Scene& scene, const Signal& signal) {
+namespace {
+
+/// Names of the signals of whose present values a signal is made.
+std::vector<std::string> names_of_present_inputs(const PartsRead& parts, const Signal& signal) {
   if (signal.kind == SignalKind::state) return {};
   if (signal.kind != SignalKind::joint_effort) return signal.inputs;
   std::vector<std::string> names;
-  const Joint* joint = joint_named(scene, signal.joint);
+  const Joint* joint = parts.joints.find(signal.joint);
   if (joint == nullptr) return names;
   const JointType& type = type_of(joint->kind);
   const JointCoordinate* coordinate = coordinate_of(signal, type);
@@ -120,29 +222,34 @@ std::vector<std::string> present_inputs(const Scene& scene, const Signal& signal
   return names;
 }
 
-namespace {
+/// The signals of each list of names, as indices; names that no signal has are left out.
+template <class NamesOf>
+std::vector<std::vector<std::size_t>> indices_of(const std::vector<Signal>& signals, NamesOf&& names_of) {
+  std::unordered_map<std::string_view, std::size_t> index_of;
+  for (std::size_t i = 0; i < signals.size(); ++i) index_of.emplace(signals[i].name, i);
+  std::vector<std::vector<std::size_t>> indices(signals.size());
+  for (std::size_t i = 0; i < signals.size(); ++i)
+    for (const std::string& name : names_of(signals[i]))
+      if (const auto known = index_of.find(name); known != index_of.end()) indices[i].push_back(known->second);
+  return indices;
+}
+
+std::vector<std::vector<std::size_t>> users_of(const std::vector<std::vector<std::size_t>>& inputs) {
+  std::vector<std::vector<std::size_t>> users(inputs.size());
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    for (const std::size_t input : inputs[i]) users[input].push_back(i);
+  return users;
+}
 
 /// The level of what a signal reads itself, without its inputs.
-int level_of_reading(const Scene& scene, const Signal& s) {
-  switch (s.kind) {
-    case SignalKind::joint_angle:
-    case SignalKind::joint_displacement:
-    case SignalKind::position:
-      return 0;
-    case SignalKind::joint_rate:
-    case SignalKind::velocity:
-      return 1;
-    case SignalKind::spring_tension:
-      for (const Spring& spring : scene.springs)
-        if (spring.name == s.spring && spring.damping != 0.0) return 1;
-      return 0;
-    case SignalKind::joint_effort:
-      break;
-    default:
-      return -1;
+int level_of_reading(const PartsRead& parts, const Signal& s) {
+  if (s.kind == SignalKind::spring_tension) {
+    const Spring* spring = parts.springs.find(s.spring);
+    return spring != nullptr && spring->damping != 0.0 ? 1 : 0;
   }
+  if (s.kind != SignalKind::joint_effort) return type_of(s.kind).level;
   if (reads_reaction(s)) return 2;
-  const Joint* joint = joint_named(scene, s.joint);
+  const Joint* joint = parts.joints.find(s.joint);
   const JointType* type = joint == nullptr ? nullptr : &type_of(joint->kind);
   const JointCoordinate* coordinate = type == nullptr ? nullptr : coordinate_of(s, *type);
   if (coordinate == nullptr) return -1;
@@ -156,45 +263,46 @@ int level_of_reading(const Scene& scene, const Signal& s) {
 
 }  // namespace
 
+std::vector<std::vector<std::size_t>> present_inputs(const Scene& scene) {
+  const PartsRead parts(scene);
+  return indices_of(scene.signals, [&](const Signal& s) { return names_of_present_inputs(parts, s); });
+}
+
+std::vector<bool> read_rows(const Scene& scene) {
+  const PartsRead parts(scene);
+  std::vector<bool> of_rows;
+  for (const Signal& s : scene.signals) of_rows.push_back(level_of_reading(parts, s) == 2);
+  return of_rows;
+}
+
 std::vector<int> levels_of_signals(const Scene& scene) {
   const std::vector<Signal>& signals = scene.signals;
-  std::unordered_map<std::string_view, std::size_t> index_of;
-  std::vector<std::vector<std::size_t>> inputs(signals.size());
+  const PartsRead parts(scene);
   std::vector<int> levels;
-  for (std::size_t i = 0; i < signals.size(); ++i) index_of.emplace(signals[i].name, i);
-  for (std::size_t i = 0; i < signals.size(); ++i) {
-    levels.push_back(level_of_reading(scene, signals[i]));
-    for (const std::string& input :
-         signals[i].kind == SignalKind::state ? signals[i].inputs : present_inputs(scene, signals[i]))
-      if (const auto known = index_of.find(input); known != index_of.end()) inputs[i].push_back(known->second);
-  }
-  for (bool grows = true; grows;) {  // levels only grow, and end at 2
-    grows = false;
-    for (std::size_t i = 0; i < signals.size(); ++i)
-      for (const std::size_t input : inputs[i]) {
-        const int level = levels[input] - (signals[i].kind == SignalKind::state ? 1 : 0);
-        if (level > levels[i]) {
-          levels[i] = level;
-          grows = true;
-        }
-      }
+  for (const Signal& s : signals) levels.push_back(level_of_reading(parts, s));
+  const auto users = users_of(indices_of(signals, [&](const Signal& s) {
+    return s.kind == SignalKind::state ? s.inputs : names_of_present_inputs(parts, s);
+  }));
+  std::vector<std::size_t> grown(signals.size());
+  std::iota(grown.begin(), grown.end(), std::size_t{0});
+  while (!grown.empty()) {  // levels only grow, and end at 2
+    const std::size_t input = grown.back();
+    grown.pop_back();
+    for (const std::size_t user : users[input]) {
+      const int level = levels[input] - (signals[user].kind == SignalKind::state ? 1 : 0);
+      if (level <= levels[user]) continue;
+      levels[user] = level;
+      grown.push_back(user);
+    }
   }
   return levels;
 }
 
 std::vector<std::size_t> order_of_signals(const Scene& scene) {
-  const std::vector<Signal>& signals = scene.signals;
-  std::unordered_map<std::string_view, std::size_t> index_of;
-  for (std::size_t i = 0; i < signals.size(); ++i) index_of.emplace(signals[i].name, i);
-  std::vector<std::vector<std::size_t>> users(signals.size());
-  std::vector<int> waits(signals.size(), 0);
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < signals.size(); ++i) {
-    for (const std::string& input : present_inputs(scene, signals[i]))
-      if (const auto known = index_of.find(input); known != index_of.end()) {
-        users[known->second].push_back(i);
-        ++waits[i];
-      }
+  const std::vector<std::vector<std::size_t>> inputs = present_inputs(scene), users = users_of(inputs);
+  std::vector<std::size_t> waits, order;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    waits.push_back(inputs[i].size());
     if (waits[i] == 0) order.push_back(i);
   }
   for (std::size_t k = 0; k < order.size(); ++k)

@@ -76,6 +76,92 @@ Scene nested(int n) {
   return s;
 }
 
+Signal reading(SignalKind kind, const std::string& signal) {
+  Signal s;
+  s.name = signal;
+  s.kind = kind;
+  return s;
+}
+
+Signal formula_of(const std::string& signal, const std::vector<std::string>& inputs) {
+  Signal s = reading(SignalKind::formula, signal);
+  s.inputs = inputs;
+  std::string sum = "1";
+  for (const std::string& input : inputs) sum += " + " + input;
+  s.formula = laws::Formula(sum, inputs);
+  return s;
+}
+
+/// n bodies on hinges of their own.
+Scene hinges(int n) {
+  Scene s;
+  for (int i = 0; i < n; ++i) {
+    Body body;
+    body.name = name("body", i);
+    body.mass = 1.0;
+    body.inertia = Mat3::identity();
+    body.placement.pose.x = {{1.0 * i, 0, 0}};
+    s.bodies.push_back(body);
+    Joint joint;
+    joint.name = name("hinge", i);
+    joint.kind = JointKind::revolute;
+    joint.first.offset.x = body.placement.pose.x;
+    joint.second.to = body.name;
+    s.joints.push_back(joint);
+  }
+  s.analysis.end_time = 1.0;
+  return s;
+}
+
+/// Each joint has an effort that a signal drives, and signals that read its rate and its effort.
+TEST(ProblemsGrowth, of_signals_that_read_joints) {
+  expect_linear(
+      [](int n) {
+        Scene s = hinges(n);
+        for (int i = 0; i < n; ++i) {
+          Signal rate = reading(SignalKind::joint_rate, name("rate", i)),
+                 effort = reading(SignalKind::joint_effort, name("effort", i));
+          rate.joint = effort.joint = name("hinge", i);
+          s.signals.insert(s.signals.end(), {rate, formula_of(name("torque", i), {rate.name}), effort});
+          s.joints[static_cast<std::size_t>(i)].forces.push_back({"angle", 0, 0, 0, {}, name("torque", i)});
+        }
+        return s;
+      },
+      6000);
+}
+
+/// A chain of signals each of which follows from the one after it, the last from a rate.
+TEST(ProblemsGrowth, of_signals_that_follow_from_each_other) {
+  expect_linear(
+      [](int n) {
+        Scene s = hinges(1);
+        for (int i = 0; i < n; ++i) s.signals.push_back(formula_of(name("link", i), {name("link", i + 1)}));
+        s.signals.push_back(reading(SignalKind::joint_rate, name("link", n)));
+        s.signals.back().joint = "hinge0";
+        return s;
+      },
+      8000);
+}
+
+/// The chain follows from a circle of two at its end, and another one leads to it. Only the circle is named.
+TEST(ProblemsGrowth, of_signals_in_a_circle) {
+  const auto make = [](int n) {
+    Scene s = hinges(1);
+    for (int i = 0; i < n; ++i) s.signals.push_back(formula_of(name("link", i), {name("link", i + 1)}));
+    s.signals.push_back(formula_of(name("link", n), {"other"}));
+    s.signals.push_back(formula_of("other", {name("link", n), "way0"}));
+    for (int i = 0; i < n; ++i)
+      s.signals.push_back(
+          formula_of(name("way", i), i + 1 < n ? std::vector{name("way", i + 1)} : std::vector<std::string>{}));
+    return s;
+  };
+  expect_linear(make, 8000);
+  std::string told;
+  for (const SceneProblem& p : problems_in(make(10)))
+    if (p.rule.find("in a circle") != std::string::npos) told += p.value;
+  EXPECT_EQ(told, "link10, other");
+}
+
 TEST(ProblemsGrowth, of_frames_in_frames) { expect_linear(nested, 2000); }
 
 TEST(ProblemsGrowth, of_nodes_in_deep_frames) {

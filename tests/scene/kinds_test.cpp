@@ -5,7 +5,9 @@
 #include <sstream>
 
 #include "bough/motion/se3.hpp"
+#include "bough/scene/analysis_kinds.hpp"
 #include "bough/scene/sensor_kinds.hpp"
+#include "bough/scene/signals.hpp"
 #include "support/source_dir.hpp"
 
 namespace bough::scene {
@@ -42,6 +44,15 @@ TEST(Kinds, the_readme_has_the_row_of_every_sensor) {
   }
 }
 
+TEST(Kinds, the_readme_has_the_row_of_every_signal) {
+  const std::string text = readme();
+  for (const SignalType& type : signal_types()) {
+    const std::string row =
+        "| `" + std::string(type.name) + "` | " + std::string(type.unit) + " | " + std::string(type.about) + " |\n";
+    EXPECT_NE(text.find(row), std::string::npos) << "src/scene/README.md needs\n" << row;
+  }
+}
+
 TEST(Kinds, entries_stand_in_the_order_of_their_enumeration_under_names_of_their_own) {
   for (const JointType& type : joint_types()) {
     EXPECT_EQ(&type_of(type.kind), &type) << type.name;
@@ -52,6 +63,14 @@ TEST(Kinds, entries_stand_in_the_order_of_their_enumeration_under_names_of_their
     EXPECT_EQ(&type_of(type.kind), &type) << type.name;
     EXPECT_EQ(sensor_kind_named(type.name), type.kind);
     EXPECT_FALSE(type.components.empty()) << type.name;
+  }
+  for (const AnalysisType& type : analysis_types()) {
+    EXPECT_EQ(&type_of(type.kind), &type) << type.name;
+    EXPECT_EQ(analysis_kind_named(type.name), type.kind);
+  }
+  for (const SignalType& type : signal_types()) {
+    EXPECT_EQ(type_of(type.kind).kind, type.kind) << type.name;
+    EXPECT_EQ(signal_kind_named(type.name), type.kind);
   }
 }
 

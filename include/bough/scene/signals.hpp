@@ -9,6 +9,41 @@
 
 namespace bough::scene {
 
+/// What a signal reads itself, besides other signals.
+enum class SignalReads : std::uint8_t { nothing, joint, spring, point };
+
+/// What a signal is told in files besides its name, each by the keys of one entry of the schema.
+enum class SignalField : std::uint8_t {
+  joint,
+  coordinate,
+  component,
+  spring,
+  point,  ///< `at` and `axis`
+  frame,
+  law,
+  of,
+  table,  ///< `of` two, `x`, `y`, `values`
+  expression,
+  start,
+  nominal,
+};
+
+struct SignalType {
+  SignalKind kind;
+  std::string_view name;  ///< in files
+  SignalReads reads;
+  /// The time derivative of positions that it reads: 0 positions, 1 rates, 2 forces of constraints; -1: none. Of an
+  /// effort or a tension it depends on what acts there: the largest.
+  int level;
+  std::vector<SignalField> fields;
+  std::string_view unit;
+  std::string_view about;
+};
+
+/// All kinds, in the order of the enumeration; then those of files that are made of these.
+const std::vector<SignalType>& signal_types();
+const SignalType& type_of(SignalKind kind);
+
 /// Names as in files.
 std::string to_string(SignalKind kind);
 std::optional<SignalKind> signal_kind_named(std::string_view name);
@@ -36,13 +71,16 @@ bool reads_reaction(const Signal& signal);
 bool reads_joint(SignalKind kind);
 bool reads_point(SignalKind kind);
 
+/// For each signal, whether it reads the multiplier of a row itself: the force of a drive or of what a joint holds.
+std::vector<bool> read_rows(const Scene& scene);
+
 /// The highest time derivative of positions on which the present value of each signal depends: 0 positions, 1 rates, 2
 /// forces of constraints, -1 none. A state depends on one less than its rate does, since it is integrated.
 std::vector<int> levels_of_signals(const Scene& scene);
 
-/// Names of the signals of whose present values a signal is made: its inputs, none for a state, and for an effort the
-/// signals that drive it along the coordinate.
-std::vector<std::string> present_inputs(const Scene& scene, const Signal& signal);
+/// For each signal, the signals of whose present values it is made, as indices: its inputs, none for a state, and for an
+/// effort the signals that drive it along the coordinate.
+std::vector<std::vector<std::size_t>> present_inputs(const Scene& scene);
 
 /// Indices of all signals, each after those of whose present values it is made; a state is made of none. The signals of
 /// a circle are missing. An input that is no signal counts as known.
