@@ -213,7 +213,7 @@ void Converter::body_inertia(const Value& v, const std::string& at, scene::Body&
     return fault(at, "needs exactly one of the keys \"inertia\" or \"shape\"",
                  "for a point mass write \"kind\": \"point_mass\"");
   if (shape_value == nullptr) {
-    if (has_other) fault(at, "density and material go with a shape");
+    if (has_other) return fault(at, "density and material go with a shape", "give the mass with an inertia");
     if (mass == nullptr) fault(at, "needs the key \"mass\"");
     const bool is_diagonal = inertia->items[0].is(JsonKind::number);
     body.inertia = is_diagonal ? diagonal3(inertia->items[0].number, inertia->items[1].number, inertia->items[2].number)

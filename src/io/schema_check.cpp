@@ -353,11 +353,17 @@ class Checker {
     if (JsonValue* kind = value.find_given("kind"); kind != nullptr && !kinds.empty())
       return fail(*kind, path.member("kind"), "has to be " + quoted_list(kinds),
                   kind->is(JsonKind::string) ? suggestion(kind->text, kinds) : "");
-    if (const JsonValue* name = value.find_given("signal"); name != nullptr && name->is(JsonKind::string))
+    if (const JsonValue* name = value.find_given("signal"); name != nullptr && name->is(JsonKind::string)) {
+      if (path.text().rfind("/frames/", 0) == 0)
+        return fail(value, path,
+                    "has to be a law of time here: parts are placed in a frame before any signal is known, and forces "
+                    "on a frame have no equation of motion",
+                    "let the signal prescribe the motion of a node (motions), and join parts to that");
       return fail(
           value, path, "has to be a law of time here: signals are known only together with the motion",
           "they may stand in drives and prescribed motions, efforts of joints and factors of loads; in the place "
           "of a law with parts, a signal of kind \"formula\"");
+    }
     std::string needed = kinds.empty() ? "" : "the key \"kind\" (" + quoted_list(kinds) + ")";
     if (!markers.empty())
       needed += (needed.empty() ? "" : ", or ") + std::string("one of the keys ") + quoted_list(markers);

@@ -171,6 +171,12 @@ const Bad frame_cases[] = {
      "\"motions\": [ { \"at\": \"tip\", \"z\": { \"kind\": \"sum\", \"terms\": [ 1, @{ \"signal\": \"a\" } ] } } ], "
      "\"signals\": [ { \"name\": \"a\", \"kind\": \"state\", \"expression\": \"1\" } ],",
      "/motions/0/z/terms/1", "a signal of kind \"formula\""},
+    {"\"position\": [0, 0, 1], \"rotation\"", "\"position\": [0, @{ \"signal\": \"a\" }, 1], \"rotation\"",
+     "/frames/0/position/1", "let the signal prescribe the motion of a node"},
+    {"\"name\": \"bench\", ",
+     "\"name\": \"bench\", \"turns\": [ { \"axis\": [0, 0, 1], \"angle\": @{ \"signal\": \"a\" } } ], ",
+     "/frames/0/turns/0/angle", "parts are placed in a frame before any signal is known"},
+    {"\"mass\": 2, \"inertia\"", "\"density\": 2, \"inertia\"", "/bodies/0", "density and material go with a shape"},
     {"\"stiffness\": 10 }", "\"stiffness\": @{ \"signal\": \"a\" } }", "/springs/0/stiffness",
      "this number is constant"},
     {"\"stiffness\": 10 }", "\"stiffness\": 10, \"stiffness_factor\": { \"signal\": @\"a\" } }",

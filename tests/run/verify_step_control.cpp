@@ -7,7 +7,9 @@
 #include <cstdio>
 
 #include "bough/laws/make_law.hpp"
+#include "bough/step/step_control.hpp"
 #include "order_scenes.hpp"
+#include "support/stepper.hpp"
 
 namespace bough::run {
 namespace {
@@ -359,6 +361,30 @@ Outcome quiet_run(double size, const std::string& nominal, double tolerance) {
 
 // The mechanism alone would let steps grow to a fiftieth of the run, 40 ms. A step of local error tol^(3/2) has
 // h ~ tol^(1/2), so the error of the states follows the tolerance.
+// A mass on a spring alone: of the shares that limit a step, e_q / tolerance^(3/2) and e_v / tolerance, the second is
+// the larger one above the tolerance (e_q / e_v)^2, where both are equal. The frequency that is told is that of the
+// vibration, but for what its error changes within a step.
+TEST(StepControl, tells_whether_places_or_velocities_limit_a_step) {
+  const scene::Scene scene = support::scene_of(R"-({
+  "bodies": [{"name": "mass", "mass": 2, "inertia": [1, 1, 1], "position": [1, 0, 0]}],
+  "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "mass", "axis": [1, 0, 0],
+              "forces": [{"stiffness": 200, "rest": 0.3}]}],
+  "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.01, "step_control": {}}})-");
+  constexpr double h = 0.01;
+  support::Stepper s(scene);
+  s.start(h);
+  step::LocalError error(s.system(), s.options(), 1.0);
+  for (int k = 1; k <= 8; ++k) {
+    if (k > 1) error.accept(s.state());
+    s.step(k * h);
+    ASSERT_FALSE(error.measure(s.system(), s.state()));
+  }
+  const double ratio = error.relative_motion() / error.relative_velocity(), both = ratio * ratio;
+  EXPECT_GT(both, 0.0);
+  EXPECT_TRUE(error.limit(1.01 * both).is_velocity);
+  EXPECT_FALSE(error.limit(0.99 * both).is_velocity);
+}
+
 TEST(StepControl, a_fast_state_beside_a_quiet_mechanism_decides_the_steps) {
   const double exact = std::cos(60.0);
   std::vector<double> errors;
