@@ -213,17 +213,18 @@ void check_driven_rows(ProblemList& list, SignalNames& names, SignalLevels& leve
   }
 }
 
-/// Analyses that know no signals. The place is that of a signal, or of the part that is made of it: what was written.
-void check_who_knows_signals(ProblemList& list) {
-  if (list.scene.signals.empty()) return;
-  const Analysis& a = list.scene.analysis;
-  const std::string what = " no signals, nor servos and springs with laws, which are made of them";
-  if (list.is_dynamic && a.integrator == Integrator::variational)
-    list.add("signals", 0, "", "", "the variational integrator knows" + what,
-             "give /analysis/integrator as generalized_alpha or bdf, or leave this out");
-  if (!list.is_dynamic && a.arc_length)
-    list.add("signals", 0, "", "", "paths by arc length know" + what,
-             "take load steps in place of /analysis/arc_length, or leave this out");
+/// The variational integrator evaluates signals in the middle of a step, where its multipliers are those with which the
+/// step begins.
+void check_variational(ProblemList& list) {
+  const Scene& scene = list.scene;
+  if (!list.is_dynamic || scene.analysis.integrator != Integrator::variational) return;
+  const std::vector<bool> of_rows = read_rows(scene);
+  for (std::size_t i = 0; i < scene.signals.size(); ++i)
+    if (of_rows[i])
+      list.add("signals", i, "", scene.signals[i].name,
+               "with the variational integrator no signal reads the force of a drive or of what a joint holds: in the "
+               "middle of a step, where signals are, it is known to first order only",
+               "give /analysis/integrator as generalized_alpha or bdf");
 }
 
 }  // namespace
@@ -277,7 +278,7 @@ void check_signals(ProblemList& list) {
   check_loads_of("point_loads", scene.point_loads);
   check_loads_of("line_loads", scene.line_loads);
   if (list.defective.empty()) check_circles(list);
-  check_who_knows_signals(list);
+  check_variational(list);
 }
 
 }  // namespace bough::scene

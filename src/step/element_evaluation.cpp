@@ -4,10 +4,10 @@
 #include <array>
 #include <type_traits>
 
-#include "bough/elements/law_slope.hpp"
 #include "element_parts.hpp"
 #include "lane_batches.hpp"
 #include "reduced_elements.hpp"
+#include "signal_columns.hpp"
 #include "trimmed_elements.hpp"
 
 namespace bough::step {
@@ -19,20 +19,6 @@ template <class E>
 double length_of(const E& e, double fallback) {
   if constexpr (E::data_axes == elements::DataAxes::section) return e.length;
   return fallback;
-}
-
-/// The tangent of an element that reads signals, K in its own n unknowns, with a column for each signal, which `slope`
-/// writes; the rows of signals are zero, for their equations are elements of their own, but for entries of multipliers.
-template <class Slope>
-void add_signal_columns(int n, int num_signals, const double* K, double* extended, Slope&& slope) {
-  const int all = n + num_signals;
-  std::array<double, most_unknowns> column;
-  std::fill(extended, extended + all * all, 0.0);
-  for (int i = 0; i < n; ++i) std::copy(K + i * n, K + (i + 1) * n, extended + i * all);
-  for (int s = 0; s < num_signals; ++s) {
-    slope(s, column.data());
-    for (int i = 0; i < n; ++i) extended[i * all + n + s] = column[static_cast<std::size_t>(i)];
-  }
 }
 
 /// Number of unknowns of an element in the linear system.

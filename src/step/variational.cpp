@@ -7,12 +7,14 @@
 #include "element_parts.hpp"
 #include "moving_nodes.hpp"
 #include "newton.hpp"
+#include "signal_columns.hpp"
 #include "variational_on.hpp"
 
 namespace bough::step {
 
 namespace {
 
+constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double largest_turn = 2.8;  ///< rotation of a node in one step [rad], below pi: the logarithm is unique
 
 template <class Vector>
@@ -40,6 +42,8 @@ VariationalOn<G>::VariationalOn(System& system, const scene::Solver& solver, dou
   impulses_.assign(static_cast<std::size_t>(system.plan().num_multipliers), 0.0);
   row_goals_ = impulses_;
   series_.resize(impulses_.size());
+  if (!system.signals().are_none())
+    signal_sums_ = std::make_unique<ResidualSums>(system.plan(), system.places(), system.linear(), nullptr);
   rhs_.assign(system.places().size(), 0.0);
   x_ = rhs_;
 }
@@ -111,13 +115,59 @@ std::optional<Trouble> VariationalOn<G>::place_nodes(State& next, double h) {
   return std::nullopt;
 }
 
+/// Signals of the middle: states by the slope of their rate at the start, the others as the predicted motion has them.
+template <class G>
+void VariationalOn<G>::predict_signals(double h) {
+  mid_.signals = base_.signals;
+  for (std::size_t i = 0; i < mid_.signals.value.size(); ++i)
+    if (system_.plan().signals[i].is_state()) mid_.signals.value[i] += 0.5 * h * base_.signals.rate[i];
+}
+
+/// The equations of signals at the middle of the step, s - f = 0 and, of states, (2/h) (x - x_n) - f = 0.
+template <class G>
+std::optional<Trouble> VariationalOn<G>::evaluate_signals(const elements::Slopes& slopes, double h,
+                                                          ResidualSize& size) {
+  SignalValues& middle = mid_.signals;
+  for (std::size_t i = 0; i < middle.value.size(); ++i)
+    if (system_.plan().signals[i].is_state()) middle.rate[i] = (2.0 / h) * (middle.value[i] - base_.signals.value[i]);
+  system_.signals().evaluate(mid_, slopes, false, *signal_sums_);
+  const ResidualSize of_signals = signal_sums_->size();
+  size.signal = of_signals.signal;
+  size.worst_signal = of_signals.worst_signal;
+  if (const int lost = signal_sums_->lost_signal(); lost >= 0)
+    return Trouble{"signal '" + system_.plan().signals[static_cast<std::size_t>(lost)].name +
+                   "' is not finite at time " + std::to_string(base_.time)};
+  return std::nullopt;
+}
+
+/// States at the end, x_{n+1} = 2 x - x_n, and the signals that rows take there, with which the laws of the end are
+/// completed.
+template <class G>
+std::optional<Trouble> VariationalOn<G>::end_signals(State& next, double h) {
+  next.signals.given = base_.signals.given;
+  for (std::size_t i = 0; i < mid_.signals.value.size(); ++i)
+    if (system_.plan().signals[i].is_state())
+      next.signals.value[i] = 2.0 * mid_.signals.value[i] - base_.signals.value[i];
+  if (!system_.plan().signals_drive) return std::nullopt;
+  if (auto t = system_.set_time(end_time_, laws::Side::left)) return t;
+  system_.signals().follow_motion(next);
+  end_laws_ = system_.instant().law_values();
+  return system_.set_time(end_time_ - 0.5 * h, laws::Side::left);
+}
+
 /// residual_ = (2/h) B (-D_1 L_d - p_n + (h/2) G_n^T lambda) by node, and the rows at the end of the step. B =
 /// T(-D/2)^-T T(-D)^T = (1 + Ad(exp(D/2))^T)/2 carries wrenches from the start to the middle such that forces of the
 /// middle are in it as they are: stiff ones then meet their own tangent in the iteration.
 template <class G>
-std::optional<Trouble> VariationalOn<G>::evaluate_step(const State& next, double h, ResidualSize& size) {
+std::optional<Trouble> VariationalOn<G>::evaluate_step(State& next, const elements::Slopes& slopes, double h,
+                                                       ResidualSize& size) {
   PhaseTimer timer{system_.clock(), system_.counts().assemble};
   ++system_.counts().evaluations;
+  size = ResidualSize{};
+  if (!system_.signals().are_none()) {
+    if (auto t = end_signals(next, h)) return t;
+    if (auto t = evaluate_signals(slopes, h, size)) return t;
+  }
   const Field middle = system_.instant().template field_on<G>(mid_);
   if (auto t = sums_.evaluate(system_, middle, base_.turns, elastic_inertia(h), Sums::Want::forces)) return t;
   Field end = system_.instant().template field_on<G>(next);
@@ -125,7 +175,6 @@ std::optional<Trouble> VariationalOn<G>::evaluate_step(const State& next, double
   after_.evaluate(system_, end, base_.turns);
   for (Vector& f : residual_) f = Vector::zero();
   before_.add_forces(mid_.multipliers.data(), 1.0, residual_);
-  size = ResidualSize{};
   for (std::size_t n = 0; n < D_.size(); ++n) {
     const Vector P = sums_.momentum(n), p = base_.on<G>().momentum[n], half = 0.5 * D_[n];
     Vector terms = sums_.force_size(n);
@@ -172,7 +221,6 @@ std::optional<Trouble> VariationalOn<G>::evaluate_step(const State& next, double
 template <class G>
 ResidualSize VariationalOn<G>::round_off_floor(double h) const {
   ResidualSize floor = system_.round_off().floor();
-  constexpr double eps = std::numeric_limits<double>::epsilon();
   for (std::size_t n = 0; n < D_.size(); ++n)
     for (int i = 0; i < G::dof; ++i) {
       double& f = i < G::translations ? floor.force : floor.moment;
@@ -218,9 +266,11 @@ void VariationalOn<G>::evaluate_tangent(const elements::Slopes& slopes, double h
   const plan::Plan& plan = system_.plan();
   constexpr double no_multipliers[elements::max_rows] = {};
   system_.linear().begin_matrices();
+  if (!system_.signals().are_none()) system_.signals().evaluate(mid_, slopes, true, *signal_sums_);
   auto by_element = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
       const int id = system_.linear().tree().element_order[static_cast<std::size_t>(k)];
+      if (static_cast<std::size_t>(id) >= plan.directory.size()) continue;  // the equation of a signal
       const int joint = system_.plan().joint_of_element[static_cast<std::size_t>(id)];
       plan::with_element(plan::arrays_on<G>(plan), plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
         using E = std::decay_t<decltype(e)>;
@@ -231,12 +281,24 @@ void VariationalOn<G>::evaluate_tangent(const elements::Slopes& slopes, double h
         elements::add_gyroscopic(e, field, 1.0 / h, matrix.data());
         add_elastic_tangent(e, field, h, matrix.data());
         if constexpr (E::role == elements::Role::joint) set_rows_of(id, matrix.data());
-        system_.elements().set_matrix(id, elements::num_unknowns(e), matrix.data());
+        const std::span<const int> signals = plan::signals_of(plan, static_cast<std::size_t>(id));
+        if (signals.empty()) return system_.elements().set_matrix(id, elements::num_unknowns(e), matrix.data());
+        // A row is closed at the end of the step, where a state has changed by twice what it has in the middle.
+        const int n = elements::num_unknowns(e), rows = elements::num_multipliers(e),
+                  all = n + static_cast<int>(signals.size());
+        std::array<double, most_unknowns * most_unknowns> extended;
+        add_signal_columns(n, all - n, matrix.data(), extended.data(), [&](int s, double* column) {
+          const int law = plan.signals[static_cast<std::size_t>(signals[static_cast<std::size_t>(s)])].law;
+          elements::evaluate_law_slope(e, field, no_multipliers,
+                                       joint < 0 ? 0.0 : base_.turns[static_cast<std::size_t>(joint)], law, column);
+          for (int k = n - rows; k < n; ++k) column[k] *= 2.0;
+        });
+        system_.elements().set_matrix(id, all, extended.data());
       });
     }
   };
-  system_.walker().for_each_chunk(static_cast<std::int64_t>(plan.directory.size()), element_grain,
-                                  tree::make_chunk(by_element));
+  system_.walker().for_each_chunk(static_cast<std::int64_t>(system_.linear().tree().element_order.size()),
+                                  element_grain, tree::make_chunk(by_element));
 }
 
 /// Sets the gradients of a joint's rows in its matrix: of forces at the start of the step, of rows at its end, both
@@ -272,13 +334,14 @@ StepReport VariationalOn<G>::iterate(State& next, const StepOptions& options, do
     report.cause = t.text;
     return report;
   };
-  const elements::Slopes slopes{2.0 / h, 4.0 / (h * h), false};
+  const elements::Slopes slopes{2.0 / h, 4.0 / (h * h), false, 2.0 / h};
   const double length = system_.plan().length_scale, tolerance = options.tolerance;
   double previous = 0.0, rate = system_.linear().last_contraction();
   bool fresh = !system_.linear().has_factor(slopes);
   for (int k = 0;; ++k) {
     if (const auto t = place_nodes(next, h)) return fail(*t);
-    if (const auto t = evaluate_step(next, h, report.residual)) return fail(*t);
+    if (k == 0 && !system_.signals().are_none()) system_.signals().follow_motion(mid_);
+    if (const auto t = evaluate_step(next, slopes, h, report.residual)) return fail(*t);
     if (k > 0) {
       if (k > 1) rate = previous > 0.0 ? report.change / previous : 0.0;
       const bool still = report.change < tolerance;
@@ -291,7 +354,8 @@ StepReport VariationalOn<G>::iterate(State& next, const StepOptions& options, do
           report.converged = report.at_floor = r.force <= std::max(16.0 * floor.force, tolerance * r.force_scale) &&
                                                r.moment <= std::max(16.0 * floor.moment, tolerance * r.moment_scale) &&
                                                r.length <= std::max(floor.length, tolerance * length) &&
-                                               r.angle <= std::max(floor.angle, tolerance);
+                                               r.angle <= std::max(floor.angle, tolerance) &&
+                                               r.signal <= std::max(16.0 * eps, tolerance);
         }
         if (report.converged) return report;
       }
@@ -309,6 +373,8 @@ StepReport VariationalOn<G>::iterate(State& next, const StepOptions& options, do
     for (std::size_t n = 0; n < D_.size(); ++n)
       system_.places().set_node_part(rhs_.data(), static_cast<int>(n), Vector(-1.0 * residual_[n]));
     set_rows([&](const Place& place, int row) { return -after_.value(place, row); });
+    for (const std::size_t unknown : system_.places().signals())
+      rhs_[unknown] = signal_sums_->right_hand_side()[unknown];
     if (const auto t = system_.linear().solve(rhs_.data(), x_.data())) return fail(*t);
     for (std::size_t n = 0; n < D_.size(); ++n)
       D_[n] += 2.0 * On::template inverse_tangent_times<double>(Vector(0.5 * D_[n]), node_part(n));
@@ -347,7 +413,9 @@ StepReport VariationalOn<G>::try_step(State& state, const StepOptions& options, 
   if (failed(system_.set_time(end_time - 0.5 * h, laws::Side::left))) return report;
   before_.evaluate(system_, system_.instant().template field_on<G>(base_), base_.turns);
   mid_.multipliers = state.multipliers;
+  end_time_ = end_time;
   predict(h);
+  predict_signals(h);
   report = iterate(state, options, h);
   if (!report.converged) return report;
   Vectors& momentum = state.change<G>().momentum;
@@ -362,7 +430,9 @@ StepReport VariationalOn<G>::try_step(State& state, const StepOptions& options, 
   state.time = end_time;
   state.last_step = h;
   if (failed(system_.set_time(end_time, laws::Side::left))) return report;
-  if (failed(solve_velocities(state, h)) || failed(solve_accelerations(state, h))) return report;
+  if (failed(solve_velocities(state, h))) return report;
+  if (!system_.signals().are_none()) system_.signals().follow_motion(state);
+  if (failed(solve_accelerations(state, h))) return report;
   add_counts();
   compare_rates(state, h);
   failed(check_shape(system_, state));

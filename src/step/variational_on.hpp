@@ -94,7 +94,10 @@ class VariationalOn final : public Integrator {
   static Nodes& change(State& state) { return state.change<G>().motion; }
   void predict(double h);
   std::optional<Trouble> place_nodes(State& next, double h);
-  std::optional<Trouble> evaluate_step(const State& next, double h, ResidualSize& size);
+  void predict_signals(double h);
+  std::optional<Trouble> evaluate_signals(const elements::Slopes& slopes, double h, ResidualSize& size);
+  std::optional<Trouble> end_signals(State& next, double h);
+  std::optional<Trouble> evaluate_step(State& next, const elements::Slopes& slopes, double h, ResidualSize& size);
   ResidualSize round_off_floor(double h) const;
   void evaluate_tangent(const elements::Slopes& slopes, double h);
   template <class E>
@@ -135,12 +138,14 @@ class VariationalOn final : public Integrator {
   double newmark_beta_;
   System mass_;  ///< a second system, whose solver factors the mass matrix
   Sums sums_;
+  std::unique_ptr<ResidualSums> signal_sums_;  ///< of equations of signals, where there are any
   Rows before_, after_;                        ///< at the ends of the step
   State base_, mid_;                           ///< start and middle of the step; multipliers of the step in the middle
   std::vector<motion::Vec6<double>> inertia_;  ///< of nodes in space, for recover_multipliers
   Vectors D_, residual_, increments_, goal_, left_;
   std::vector<double> end_laws_, impulses_, row_goals_, rhs_, x_;
   std::vector<lanes::Taylor<double, 3>> series_;
+  double end_time_ = 0.0;  ///< of the step
   double unresolved_ = 0.0;
   double mass_step_ = 0.0;  ///< h of the factored mass matrix; 0: none
 };

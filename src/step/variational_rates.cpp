@@ -5,6 +5,7 @@
 
 #include "element_parts.hpp"
 #include "moving_nodes.hpp"
+#include "signal_columns.hpp"
 #include "variational_on.hpp"
 
 namespace bough::step {
@@ -40,7 +41,14 @@ std::optional<Trouble> VariationalOn<G>::factor_mass(const State& state, double 
                            constexpr int most = G::dof * std::decay_t<decltype(e)>::num_ports + elements::max_rows;
                            double elastic[most * most] = {};
                            elements::add_elastic_mass(e, field, elastic_inertia(h), elastic);
-                           mass_.elements().add_matrix(static_cast<int>(k), elements::num_unknowns(e), elastic);
+                           const auto id = static_cast<std::size_t>(k);
+                           const int n = elements::num_unknowns(e),
+                                     all = n + static_cast<int>(plan::signals_of(mass_.plan(), id).size());
+                           if (all == n) return mass_.elements().add_matrix(static_cast<int>(k), n, elastic);
+                           std::array<double, most_unknowns * most_unknowns> extended;
+                           add_signal_columns(n, all - n, elastic, extended.data(),
+                                              [n](int, double* column) { std::fill(column, column + n, 0.0); });
+                           mass_.elements().add_matrix(static_cast<int>(k), all, extended.data());
                          });
   };
   mass_.walker().for_each_chunk(static_cast<std::int64_t>(mass_.plan().directory.size()), element_grain,
@@ -73,6 +81,7 @@ std::optional<Trouble> VariationalOn<G>::solve_mass(State& moving, std::vector<d
     for (std::size_t n = 0; n < goal_.size(); ++n)
       system_.places().set_node_part(rhs_.data(), static_cast<int>(n), left_[n]);
     set_rows([&](const Place& place, int row) { return row_goals_[place.multiplier(row)]; });
+    for (const std::size_t unknown : system_.places().signals()) rhs_[unknown] = 0.0;  // they are known
     if (auto t = mass_.linear().solve(rhs_.data(), x_.data())) return t;
     const double change = add_solution(moving, multipliers, scale);
     if (!std::isfinite(change)) return Trouble{"velocities or accelerations are not finite"};
@@ -152,6 +161,7 @@ std::optional<Trouble> VariationalOn<G>::solve_accelerations(State& state, doubl
   mid.rotation = state.on<G>().rotation;
   mid_.time = state.time;
   mid_.turns = state.turns;
+  mid_.signals = state.signals;
   mid_.multipliers = impulses_;
   std::fill(mid_.multipliers.begin(), mid_.multipliers.end(), 0.0);
   for (auto& n : mid.motion) n.a = Vector::zero();

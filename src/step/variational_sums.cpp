@@ -42,6 +42,7 @@ std::optional<Trouble> MomentumSums<G>::evaluate(const System& system, const ele
   auto by_element = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
       const auto id = static_cast<std::size_t>(tree.element_order[static_cast<std::size_t>(k)]);
+      if (id >= plan.directory.size()) continue;  // the equation of a signal
       const int joint = system.plan().joint_of_element[static_cast<std::size_t>(id)];
       const auto at = static_cast<std::size_t>(begin_[id]);
       plan::with_element(plan::arrays_on<G>(plan), plan.directory[id], [&](const auto& e) {

@@ -176,6 +176,10 @@ const Bad frame_cases[] = {
     {"\"name\": \"bench\", ",
      "\"name\": \"bench\", \"turns\": [ { \"axis\": [0, 0, 1], \"angle\": @{ \"signal\": \"a\" } } ], ",
      "/frames/0/turns/0/angle", "parts are placed in a frame before any signal is known"},
+    {"\"spectral_radius\": 0.9 },",
+     "\"integrator\": \"variational\" }, \"signals\": [ @{ \"name\": \"a\", \"kind\": \"joint_reaction\", "
+     "\"joint\": \"hinge\", \"component\": \"fx\" } ],",
+     "/signals/0", "known to first order only"},
     {"\"mass\": 2, \"inertia\"", "\"density\": 2, \"inertia\"", "/bodies/0", "density and material go with a shape"},
     {"\"stiffness\": 10 }", "\"stiffness\": @{ \"signal\": \"a\" } }", "/springs/0/stiffness",
      "this number is constant"},

@@ -112,8 +112,9 @@ TEST(SceneHints, settings_without_effect_are_told) {
   EXPECT_TRUE(says(path.warnings, {"/analysis/load_steps", "arc_length"})) << texts(path.warnings);
 }
 
-// Springs with laws and servos are made of signals: the part is named that was written, and the setting.
-TEST(SceneHints, analyses_that_know_no_signals_name_what_was_written) {
+// Springs with laws and servos are made of signals, which all analyses take; the variational integrator none that reads
+// what a joint holds.
+TEST(SceneHints, all_analyses_take_signals_but_the_variational_integrator_none_of_reactions) {
   const std::string start = R"({"schema_version": 1, "bodies": [{"name": "a", "mass": 1, "inertia": [1, 1, 1]}],
       "joints": [{"name": "axle", "kind": "revolute", "first": "ground", "second": "a", "axis": [0, 0, 1]}], )";
   const std::string spring =
@@ -126,18 +127,18 @@ TEST(SceneHints, analyses_that_know_no_signals_name_what_was_written) {
                         R"("analysis": {"kind": "dynamic", "end_time": 1, "step_size": 1e-2,
                                         "integrator": "variational"}})",
                     path = R"("analysis": {"kind": "static", "arc_length": {"step": 0.1}}})";
-  const auto expect = [&](const std::string& part, const std::string& analysis, const std::string& place,
-                          const std::string& setting) {
-    const SceneFile file = read_scene_text(start + part + analysis, "a");
-    ASSERT_EQ(file.problems.size(), 1u) << texts(file.problems);
-    EXPECT_EQ(file.problems.front().pointer, place);
-    EXPECT_TRUE(says(file.problems, {"no signals", setting.c_str()})) << texts(file.problems);
-  };
-  expect(spring, variational, "/springs/0", "/analysis/integrator");
-  expect(servo, variational, "/actuators/0", "/analysis/integrator");
-  expect(signal, variational, "/signals/0", "/analysis/integrator");
-  expect(spring, path, "/springs/0", "/analysis/arc_length");
-  expect(servo, path, "/actuators/0", "/analysis/arc_length");
+  for (const std::string& part : {spring, servo, signal})
+    for (const std::string& analysis : {variational, path}) {
+      const SceneFile file = read_scene_text(start + part + analysis, "a");
+      EXPECT_TRUE(file.ok()) << part << analysis << texts(file.problems);
+    }
+  const std::string reaction =
+      R"("signals": [{"name": "push", "kind": "joint_reaction", "joint": "axle", "component": "fx"}], )";
+  EXPECT_TRUE(read_scene_text(start + reaction + path, "a").ok());
+  const SceneFile refused = read_scene_text(start + reaction + variational, "a");
+  ASSERT_EQ(refused.problems.size(), 1u) << texts(refused.problems);
+  EXPECT_EQ(refused.problems.front().pointer, "/signals/0");
+  EXPECT_TRUE(says(refused.problems, {"to first order only", "/analysis/integrator"})) << texts(refused.problems);
 }
 
 // A servo is made of four signals and an effort, this spring of a strut.

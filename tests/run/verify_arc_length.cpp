@@ -62,6 +62,49 @@ TEST(ArcLength, follows_a_truss_through_both_limit_points_to_the_far_side) {
               run.summary.steps.accepted, run.summary.steps.rejected, run.summary.steps.newton_iterations);
 }
 
+// The same truss, whose load grows with what a state of a signal sits at, x' = 0, and whose springs are struts with a
+// factor that a formula of the height gives:  2 c(y) k y (1 / l - 1) = load f,  c = 1 + a y.
+TEST(ArcLength, follows_signals_and_states_past_limit_points) {
+  const double load = 200.0, a = 0.2, height = std::sqrt(1.0 - base * base);
+  scene::Scene scene = support::scene_of(
+      R"({"bodies": [{"name": "block", "mass": 1, "inertia": [1, 1, 1], "position": [0, )" + support::text(height) +
+      R"(, 0]}],
+    "joints": [{"name": "slide", "kind": "prismatic", "first": "ground", "second": "block", "axis": [0, 1, 0]}],
+    "springs": [
+      {"name": "left", "first": {"to": "ground", "position": [-0.9, 0, 0]}, "second": "block", "stiffness": 1000,
+       "rest_length": 1, "stiffness_factor": {"signal": "c"}},
+      {"name": "right", "first": {"to": "ground", "position": [0.9, 0, 0]}, "second": "block", "stiffness": 1000,
+       "rest_length": 1, "stiffness_factor": {"signal": "c"}}],
+    "signals": [{"name": "y", "kind": "position", "at": "block", "axis": "y"},
+      {"name": "c", "kind": "formula", "expression": "1 + 0.2*y"},
+      {"name": "factor", "kind": "time", "law": {"expression": "t"}},
+      {"name": "x", "kind": "state", "expression": "(factor - x)/0.3"}],
+    "loads": [{"name": "push", "at": "block", "force": [0, -200, 0], "law": {"signal": "x"}}],
+    "sensors": [{"name": "block", "kind": "position", "at": "block"}, {"name": "x", "kind": "signal", "signal": "x"}],
+    "analysis": {"kind": "static", "tolerance": 1e-11, "arc_length": {"step": 0.05, "after_limit_points": 2}}})");
+  const support::Outcome run = support::run(scene);
+  ASSERT_TRUE(run.ok()) << run.summary.cause;
+  ASSERT_EQ(run.summary.limit_points.size(), 2u);
+  const auto factor_at = [&](double y) { return (1.0 + a * y) * truss_load(y) / load; };
+  double before = 1.0;
+  for (std::size_t r = 0; r < run.history.times.size(); ++r) {
+    const double y = run.history.rows[r][run.history.column("block.y")];
+    EXPECT_NEAR(run.history.times[r], factor_at(y), 1e-9) << r;
+    EXPECT_NEAR(run.history.rows[r][run.history.column("x")], run.history.times[r], 1e-12) << r;
+    EXPECT_LT(y, before);
+    before = y;
+  }
+  // Limit loads: the largest and the least value of that function between the two shapes without forces.
+  double most = -1e9, least = 1e9;
+  for (int k = 0; k <= 200000; ++k) {
+    const double f = factor_at(height * (1.0 - 2.0 * k / 200000.0));
+    most = std::max(most, f);
+    least = std::min(least, f);
+  }
+  EXPECT_NEAR(run.summary.limit_points[0].load_factor, most, 1e-8);
+  EXPECT_NEAR(run.summary.limit_points[1].load_factor, least, 1e-8);
+}
+
 TEST(ArcLength, ends_at_the_first_passing_of_its_load_or_at_a_limit_point) {
   const double load = 200.0, y_limit = std::sqrt(std::pow(base * base, 2.0 / 3.0) - base * base);
   const double limit = truss_load(y_limit) / load;

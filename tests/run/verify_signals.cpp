@@ -54,7 +54,8 @@ double lagged_rate(double t) {
 TEST(Signals, states_are_integrated_to_the_order_of_the_motion) {
   const std::string signals = R"-({"name": "u", "kind": "time", "law": {"expression": "sin(3*t)"}},
                                  {"name": "x", "kind": "state", "expression": "(u - x)/0.2"})-";
-  for (const std::pair<const char*, double>& rule : {std::pair{"generalized_alpha", 2.0}, std::pair{"bdf", 3.0}})
+  for (const std::pair<const char*, double>& rule :
+       {std::pair{"generalized_alpha", 2.0}, std::pair{"bdf", 3.0}, std::pair{"variational", 2.0}})
     for (const bool planar : {true, false}) {
       const auto error = [&](double h) {
         std::vector<std::string> overrides = planar ? in_plane : in_space;
@@ -72,7 +73,7 @@ TEST(Signals, states_are_integrated_to_the_order_of_the_motion) {
 TEST(Signals, a_loop_is_the_spring_and_damper_of_its_strength) {
   const std::string none = R"-({"name": "unused", "kind": "time", "law": 0})-";
   const std::string loop = R"-({"name": "torque", "kind": "formula", "expression": "40*(0.5 - angle) - 3*rate"})-";
-  for (const char* integrator : {"generalized_alpha", "bdf"})
+  for (const char* integrator : {"generalized_alpha", "bdf", "variational"})
     for (const bool planar : {true, false}) {
       std::vector<std::string> overrides = planar ? in_plane : in_space;
       overrides.push_back(std::string("/analysis/integrator=") + integrator);
@@ -84,6 +85,87 @@ TEST(Signals, a_loop_is_the_spring_and_damper_of_its_strength) {
         for (const char* column : {"angle", "rate"})
           EXPECT_NEAR(by_signals.history.of(column)[k], by_spring.history.of(column)[k], 1e-9) << integrator;
     }
+}
+
+// A lag that follows the angle and pushes the rotor with minus its value: J q'' = -k x, x' = (q - x)/tau, so that with
+// s the roots of J tau s^3 + J s^2 + k = 0 all is a sum of exp(s t). From q = 1, x = 0 at rest, against the third-order
+// equation in Runge-Kutta steps of 1e-4.
+struct Lagged {
+  double q = 1.0, v = 0.0, x = 0.0;
+};
+Lagged lagged_loop(double end) {
+  const auto rate = [](const Lagged& s) { return Lagged{s.v, -40.0 * s.x / 0.5, (s.q - s.x) / 0.05}; };
+  const auto plus = [](const Lagged& s, double h, const Lagged& r) {
+    return Lagged{s.q + h * r.q, s.v + h * r.v, s.x + h * r.x};
+  };
+  const int steps = 10000;
+  const double h = end / steps;
+  Lagged s;
+  for (int k = 0; k < steps; ++k) {
+    const Lagged a = rate(s), b = rate(plus(s, 0.5 * h, a)), c = rate(plus(s, 0.5 * h, b)), d = rate(plus(s, h, c));
+    s = plus(plus(plus(plus(s, h / 6.0, a), h / 3.0, b), h / 3.0, c), h / 6.0, d);
+  }
+  return s;
+}
+
+TEST(Signals, a_loop_through_a_state_is_of_second_order_with_the_variational_integrator) {
+  const std::string signals = R"-({"name": "moved", "kind": "formula", "expression": "1 + angle"},
+    {"name": "x", "kind": "state", "expression": "(moved - x)/0.05"},
+    {"name": "torque", "kind": "formula", "expression": "-40*x"})-";
+  const Lagged exact = lagged_loop(1.0);
+  for (const bool planar : {true, false}) {
+    std::vector<std::string> overrides = planar ? in_plane : in_space;
+    overrides.insert(overrides.end(), {"/analysis/integrator=variational", ""});
+    std::vector<Outcome> runs;
+    for (const double h : {0.01, 0.005}) {
+      overrides.back() = step_of(h);
+      scene::Scene scene = rotor(signals, R"-({"signal": "torque"})-", overrides);
+      scene.sensors.push_back(scene.sensors.front());
+      scene.sensors.back().name = "x";
+      scene.sensors.back().kind = scene::SensorKind::signal;
+      scene.sensors.back().signal = "x";
+      runs.push_back(run_ok(scene));
+    }
+    const std::pair<const char*, double> columns[] = {{"angle", exact.q - 1.0}, {"rate", exact.v}, {"x", exact.x}};
+    for (const auto& [column, value] : columns)
+      EXPECT_NEAR(
+          std::log2(std::abs(runs[0].history.last(column) - value) / std::abs(runs[1].history.last(column) - value)),
+          2.0, 0.25)
+          << column << (planar ? " in a plane" : " in space");
+    EXPECT_LT(runs[1].summary.checks.energy_balance, 1e-2 * runs[1].summary.checks.energy_scale);
+  }
+}
+
+// A drive that follows the second of two lags of a law: its angle is the state at the end of every step, and the rate
+// of a state is that of the motion. From rest, x' = (u - x)/tau, y' = (x - y)/tau, u = 1:
+//   y = 1 - (1 + t/tau) exp(-t/tau),  y' = t/tau^2 exp(-t/tau)
+TEST(Signals, states_drive_joints_of_the_variational_integrator) {
+  const std::string json = R"-({
+  "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.01, "tolerance": 1e-11, "integrator": "variational"},
+  "bodies": [{"name": "rotor", "mass": 2, "inertia": [0.5, 0.5, 0.5]}],
+  "joints": [{"name": "axle", "kind": "revolute", "first": "ground", "second": "rotor", "axis": [0, 0, 1],
+              "drives": [{"law": {"signal": "y"}}]}],
+  "signals": [{"name": "x", "kind": "state", "expression": "(1 - x)/0.2"},
+              {"name": "y", "kind": "state", "expression": "(x - y)/0.2"}],
+  "sensors": [{"name": "angle", "kind": "joint_angle", "joint": "axle"},
+              {"name": "rate", "kind": "joint_rate", "joint": "axle"},
+              {"name": "y", "kind": "signal", "signal": "y"}]})-";
+  const double e = std::exp(-5.0), angle = 1.0 - 6.0 * e, rate = 25.0 * e;
+  for (const bool planar : {true, false}) {
+    std::vector<std::string> overrides = planar ? in_plane : in_space;
+    overrides.emplace_back();
+    const auto run = [&](double h) {
+      overrides.back() = step_of(h);
+      return run_ok(scene_of(json, overrides));
+    };
+    const Outcome coarse = run(0.02), fine = run(0.01);
+    EXPECT_NEAR(fine.history.last("angle"), fine.history.last("y"), 1e-10);
+    EXPECT_NEAR(
+        std::log2(std::abs(coarse.history.last("angle") - angle) / std::abs(fine.history.last("angle") - angle)), 2.0,
+        0.25);
+    EXPECT_NEAR(std::log2(std::abs(coarse.history.last("rate") - rate) / std::abs(fine.history.last("rate") - rate)),
+                2.0, 0.25);
+  }
 }
 
 // A dead load that a signal makes the force of a spring and damper on the tip of a cantilever: statics against beam
