@@ -100,7 +100,7 @@ class Motion:
     times: (n,); curves: {name: (n, points, 3)} places along beams [m], bodies: {name: (n, 3)} centres of mass [m];
     forces, strains: {name: (n, points, 6)} along beams, (N, Q2, Q3, T, M2, M3) and (e1, g2, g3, k1, k2, k3);
     velocities: {name: (n, points, 3) or (n, 3)}; rotations: the same of rotation vectors from the start, in space;
-    links: {name: (n, 2, 3)} both sides of joints and springs.
+    links: {name: (n, 2, 3)} both sides of joints and springs; signals: {name: (n,)} that change with the motion.
     """
 
     def __init__(self, path):
@@ -149,6 +149,8 @@ class Motion:
             block = values[:, at:at + 9]
             at += 9
             self.links[link["name"]] = block[:, :6].reshape(count, 2, 3) + start["links", link["name"]][:6].reshape(2, 3)
+        at += 6 * len(header["frames"]) + 9 * len(header["arrows"])
+        self.signals = {name: values[:, at + k] for k, name in enumerate(header.get("signals", []))}
 
 
 def read_npy(path, columns=None):

@@ -76,6 +76,7 @@ std::string header_of(const records::MotionParts& parts, const records::MotionFr
     json += "{\"name\":" + json_string(f.arrows[k].name) + ",\"kind\":\"" +
             (f.arrows[k].is_per_length ? "line load" : "load") + "\"}";
   });
+  if (!f.signals.empty()) append_names(json, "signals", f.signals);
   json += ",\"outlines\":";
   append_list(json, parts.outlines, [&](std::size_t k) {
     const auto& loops = parts.outlines[k].loops;
@@ -151,13 +152,15 @@ std::string frame_of(const records::MotionFrame& f, const records::MotionFrame& 
     put<float>(bytes, f.arrows[k].force, 3);
     put<float>(bytes, f.arrows[k].moment, 3);
   }
+  for (const records::SignalValue& s : f.signals) put<float>(bytes, &s.value, 1);
   return packed_frame(f.time, bytes);
 }
 
 }  // namespace
 
 std::size_t frame_floats_of(const records::MotionFrame& f) {
-  std::size_t floats = 9 * f.bodies.size() + 9 * f.links.size() + 6 * f.frames.size() + 9 * f.arrows.size();
+  std::size_t floats =
+      9 * f.bodies.size() + 9 * f.links.size() + 6 * f.frames.size() + 9 * f.arrows.size() + f.signals.size();
   for (const records::Curve& c : f.curves) floats += 21 * c.points.size();
   return floats;
 }

@@ -110,6 +110,8 @@ records::MotionFrame read_header(HeaderReader& r, records::MotionParts& parts) {
     arrow.name = r.text(v->find("name"));
     arrow.is_per_length = r.text(v->find("kind")) == "line load";
   }
+  if (r.header.find("signals") != nullptr)
+    for (const JsonValue* v : r.list(r.header, "signals")) f.signals.push_back({r.text(v)});
   return f;
 }
 
@@ -209,6 +211,7 @@ void read_frame(const std::string& bytes, records::MotionFrame& f) {
     n.take<float>(a.force, 3);
     n.take<float>(a.moment, 3);
   }
+  for (records::SignalValue& s : f.signals) n.take<float>(&s.value, 1);
 }
 
 struct Block {

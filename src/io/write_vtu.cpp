@@ -234,6 +234,12 @@ std::string vtu_text(const records::MotionFrame& frame, const records::MotionPar
   file.names("body_names", frame.bodies);
   file.names("link_names", frame.links);
   file.names("load_names", frame.arrows);
+  for (const records::SignalValue& signal : frame.signals) {
+    file.xml += "      <DataArray type=\"Float64\" Name=\"signal " + xml_escaped(signal.name) +
+                "\" NumberOfTuples=\"1\" format=\"ascii\">";
+    append_number(file.xml, signal.value);
+    file.line("</DataArray>");
+  }
   file.line("    </FieldData>");
   file.xml += "    <Piece NumberOfPoints=\"" + std::to_string(grid.num_points()) + "\" NumberOfCells=\"" +
               std::to_string(grid.types.size()) + "\">\n";

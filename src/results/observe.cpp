@@ -349,6 +349,8 @@ records::MotionFrame eval_motion(const step::System& system, const step::State& 
     copy(pose.R, moving.axes);
   }
   add_arrows(plan, f, frame.arrows);
+  for (std::size_t i = 0; i < plan.signals.size(); ++i)
+    frame.signals.push_back({plan.signals[i].name, state.signals.value[i]});
   return frame;
 }
 

@@ -31,6 +31,7 @@ SCENE = {
     "bodies": [{"name": "ball, \"heavy\"", "mass": 2, "shape": {"kind": "sphere", "radius": 0.1}, "position": [1, 0, 0]}],
     "beams": [{"name": "bar", "section": "bar", "start": "root", "end": "ball, \"heavy\"", "elements": 4}],
     "joints": [{"name": "pin", "kind": "revolute", "first": "ground", "second": "root", "position": [0, 0, 0], "axis": [0, 1, 0]}],
+    "signals": [{"name": "height", "kind": "position", "at": "ball, \"heavy\"", "axis": "z"}],
     "sensors": [{"name": "ball", "kind": "position", "at": "ball, \"heavy\""},
                 {"name": "ball speed", "kind": "velocity", "at": "ball, \"heavy\""},
                 {"name": "root force", "kind": "section_force", "beam": "bar", "station": 0},
@@ -64,6 +65,7 @@ def main():
     assert numpy.abs(motion.bodies['ball, "heavy"'] - run["ball"]).max() < 1e-7
     assert numpy.abs(motion.velocities['ball, "heavy"'] - run["ball speed"][:, :3]).max() < 1e-6
     assert numpy.abs(motion.curves["bar"][:, -1] - run["ball"]).max() < 1e-7
+    assert numpy.abs(motion.signals["height"] - run["ball.z"]).max() < 1e-7
     scale = numpy.abs(run["root force"]).max()
     assert numpy.abs(motion.forces["bar"][:, 0] - run["root force"]).max() < 1e-6 * scale
     whole = (folder / "out/motion.bin").read_bytes()

@@ -137,6 +137,13 @@ TEST(Vtu, far_from_the_origin_points_are_in_double_precision) {
   EXPECT_NE(vtu_text(frame).find("type=\"Float64\" Name=\"Points\""), std::string::npos);
 }
 
+TEST(Vtu, signals_are_data_of_the_field) {
+  records::MotionFrame frame;
+  frame.signals = {{"command", 0.25}};
+  EXPECT_NE(vtu_text(frame).find("Name=\"signal command\" NumberOfTuples=\"1\" format=\"ascii\">0.25</DataArray>"),
+            std::string::npos);
+}
+
 TEST(Vtu, a_frame_without_parts_is_an_empty_grid) {
   EXPECT_NE(vtu_text({}).find("NumberOfPoints=\"0\" NumberOfCells=\"0\""), std::string::npos);
 }
@@ -154,6 +161,7 @@ TEST(MotionFile, frames_come_back_to_single_precision_of_their_displacements) {
   const auto moved = [&](int k) {
     records::MotionFrame f = sample_frame(0.25 * k);
     for (records::CurvePoint& p : f.curves[0].points) p.position[0] += far;
+    f.signals = {{"command", 0.5 * k}, {"valve", -1.25}};
     return f;
   };
   for (int k = 0; k < 4; ++k) writer.frame(moved(k));
@@ -172,6 +180,10 @@ TEST(MotionFile, frames_come_back_to_single_precision_of_their_displacements) {
     EXPECT_EQ(got.curves.at(0).name, "beam");
     EXPECT_EQ(got.bodies.at(0).name, "crank");
     EXPECT_EQ(got.links.at(0).name, "hinge");
+    ASSERT_EQ(got.signals.size(), 2u);
+    EXPECT_EQ(got.signals[0].name, "command");
+    EXPECT_EQ(got.signals[0].value, 0.5 * static_cast<double>(k));
+    EXPECT_EQ(got.signals[1].value, -1.25);
     EXPECT_EQ(got.bodies.at(0).center[0], 0.1);
     EXPECT_EQ(got.bodies.at(0).attachments, expected.bodies[0].attachments);
     for (std::size_t p = 0; p < 5; ++p) {

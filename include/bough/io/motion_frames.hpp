@@ -3,6 +3,7 @@
 /// bytes:
 ///   {"format":"bough motion 3","frame_floats":n,"curves":[{"name","points","outline","subdomains"}],
 ///    "bodies":[{"name","attachments","mesh"}],"links":[{"name","kind"}],"frames":[name],"arrows":[{"name","kind"}],
+///    "signals":[name] (if there are any),
 ///    "outlines":[[[x2,x3,x2,x3,...] per loop]],"meshes":[{"points":[x,y,z,...],"triangles":[a,b,c,...]}]}
 /// then binary numbers, little-endian, without gaps. First the start, float64:
 ///   curve point: position 3, axes 9 (row-major, columns are axes) | body: centre 3, axes 9, position 3, attachments
@@ -13,7 +14,7 @@
 ///   curve point: displacement 3, rotation 3, velocity 3, force 6, strain 6 | body: displacement 3, rotation 3,
 ///     velocity 3
 ///   link: displacement of first 3, of second 3, rotation 3 | frame: displacement 3, rotation 3
-///   arrow: displacement 3, force 3, moment 3 (of kind "line load" per length)
+///   arrow: displacement 3, force 3, moment 3 (of kind "line load" per length) | signal: value
 /// Displacements are those from the start, so that small ones keep their digits far from the origin; a rotation r turns
 /// the axes of the start in space,  axes = exp(~r) axes_start.  Frames that are not whole (a crash) do not count.
 #include <filesystem>

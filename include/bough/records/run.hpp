@@ -70,6 +70,11 @@ struct Arrow {
   double moment[3];            ///< [N m], of a line load [N]
   bool is_per_length = false;  ///< of a line load, per reference length
 };
+/// Value of a signal that changes with the motion, in its own unit.
+struct SignalValue {
+  std::string name;
+  double value = 0.0;
+};
 struct MotionFrame {
   double time = 0.0;
   std::vector<Curve> curves;
@@ -77,6 +82,7 @@ struct MotionFrame {
   std::vector<Link> links;
   std::vector<FramePose> frames = {};
   std::vector<Arrow> arrows = {};
+  std::vector<SignalValue> signals = {};
   bool for_others = true;  ///< frame is also written to files for other programs, which are larger
 };
 /// Properties of the parts in all frames of a motion, in the order of the frames' lists; given once.
