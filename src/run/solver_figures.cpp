@@ -53,8 +53,20 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
+int widest_interface(const tree::Tree& tree) {
+  int widest = 0;
+  for (const tree::Subdomain& s : tree.subdomains)
+    widest = std::max(widest, tree.fronts[static_cast<std::size_t>(s.top())].num_boundary);
+  return widest;
+}
+
+bool has_narrow_interfaces(const tree::Tree& tree) {
+  return widest_interface(tree) <= widest_for_condition && tree.num_subdomains() <= 10000;
+}
+
 /// Levels of the tree with their widths, and the condition numbers of their interfaces if these are narrow.
-std::vector<records::LevelFigures> make_levels(const tree::Tree& tree, const solve::Hierarchical& solver) {
+std::vector<records::LevelFigures> make_levels(step::System& system) {
+  const tree::Tree& tree = system.linear().tree();
   std::vector<records::LevelFigures> levels;
   for (const tree::Subdomain& s : tree.subdomains) {
     levels.resize(std::max(levels.size(), static_cast<std::size_t>(s.level) + 1));
@@ -63,13 +75,9 @@ std::vector<records::LevelFigures> make_levels(const tree::Tree& tree, const sol
     level.interface_unknowns =
         std::max(level.interface_unknowns, tree.fronts[static_cast<std::size_t>(s.top())].num_boundary);
   }
-  int widest = 0;
-  for (std::size_t l = 0; l < levels.size(); ++l) {
-    levels[l].level = static_cast<int>(l);
-    widest = std::max(widest, levels[l].interface_unknowns);
-  }
-  if (widest > widest_for_condition || tree.num_subdomains() > 10000) return levels;
-  for (const solve::InterfaceReport& i : solver.interfaces()) {
+  for (std::size_t l = 0; l < levels.size(); ++l) levels[l].level = static_cast<int>(l);
+  if (!has_narrow_interfaces(tree)) return levels;
+  for (const solve::InterfaceReport& i : system.linear().solver().hierarchical()->interfaces(system.walker())) {
     records::LevelFigures& level = levels[static_cast<std::size_t>(i.level)];
     level.condition = std::max(level.condition, i.condition);
   }
@@ -127,7 +135,12 @@ void add_backward_errors(step::System& system, const solve::Hierarchical& solver
 void look_at_last_factor(step::System& system, records::Summary& summary) {
   const solve::Hierarchical* solver = system.linear().solver().hierarchical();
   if (solver == nullptr || system.counts().factorizations == 0 || !solver->last_status().ok()) return;
-  summary.levels = make_levels(system.linear().tree(), *solver);
+  summary.levels = make_levels(system);
+  if (has_narrow_interfaces(system.linear().tree())) {
+    double most = 1.0;
+    for (const records::LevelFigures& level : summary.levels) most = std::max(most, level.condition);
+    summary.solver.emplace_back("interface_condition_max", most);
+  }
   const double condition =
       estimate_condition(system, *solver, [&](const std::vector<double>& b, const std::vector<double>& x, double norm) {
         add_backward_errors(system, *solver, b, x, norm, summary.levels);
@@ -164,17 +177,8 @@ decltype(records::Summary::solver) solver_figures(step::System& system, int depe
     figures.emplace_back("interface_seconds", i.seconds);
     figures.emplace_back("interface_iterations", i.iterations);
   }
-  const solve::Hierarchical* hierarchical = system.linear().solver().hierarchical();
-  if (hierarchical == nullptr || system.counts().factorizations == 0) return figures;
-  int widest = 0;
-  for (const tree::Subdomain& s : tree.subdomains)
-    widest = std::max(widest, tree.fronts[static_cast<std::size_t>(s.top())].num_boundary);
-  figures.emplace_back("interface_unknowns_max", static_cast<double>(widest));
-  if (widest <= widest_for_condition && tree.num_subdomains() <= 10000) {
-    double condition = 1.0;
-    for (const solve::InterfaceReport& i : hierarchical->interfaces()) condition = std::max(condition, i.condition);
-    figures.emplace_back("interface_condition_max", condition);
-  }
+  if (system.linear().solver().hierarchical() != nullptr && system.counts().factorizations > 0)
+    figures.emplace_back("interface_unknowns_max", static_cast<double>(widest_interface(tree)));
   return figures;
 }
 

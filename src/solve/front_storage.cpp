@@ -49,14 +49,6 @@ class SchurPlanner {
     places_.host.assign(schur_.size(), tree::none);
   }
 
-  SchurPlaces keep_all() {
-    for (std::size_t f = 0; f < schur_.size(); ++f) {
-      places_.begin[f] = places_.pool;
-      places_.pool += schur_[f];
-    }
-    return std::move(places_);
-  }
-
   SchurPlaces share() {
     for (tree::FrontId f = 0; f < tree_.num_fronts(); ++f) measure(f);  // postorder
     for (tree::FrontId f = tree_.num_fronts(); f-- > 0;) place(f);
@@ -160,9 +152,8 @@ class SchurPlanner {
 
 }  // namespace
 
-SchurPlaces plan_schur(const tree::Tree& tree, const std::vector<int>& in_lanes, bool keep_all, bool is_symmetric) {
-  SchurPlanner planner(tree, in_lanes, is_symmetric);
-  return keep_all ? planner.keep_all() : planner.share();
+SchurPlaces plan_schur(const tree::Tree& tree, const std::vector<int>& in_lanes, bool is_symmetric) {
+  return SchurPlanner(tree, in_lanes, is_symmetric).share();
 }
 
 }  // namespace bough::solve

@@ -28,8 +28,8 @@ struct SchurPlaces {
 /// memory of its factor holds Schur complements of its grandchildren, if there is room. The pool has separate regions
 /// for fronts of even and odd depth, and a front uses the region of its grandchildren. Fronts of one leaf are
 /// eliminated one after the other and share memory; sub-domains that may be visited at the same time never do.
-/// in_lanes: by front, negative for fronts that need a place. keep_all: nothing is shared. is_symmetric: sizes of
-/// factors are those of symmetric fronts, the smallest possible.
-SchurPlaces plan_schur(const tree::Tree& tree, const std::vector<int>& in_lanes, bool keep_all, bool is_symmetric);
+/// in_lanes: by front, negative for fronts that need a place. is_symmetric: sizes of factors are those of symmetric
+/// fronts, the smallest possible.
+SchurPlaces plan_schur(const tree::Tree& tree, const std::vector<int>& in_lanes, bool is_symmetric);
 
 }  // namespace bough::solve

@@ -49,7 +49,7 @@ Hierarchical::Hierarchical(const blocks::BlockGraph& graph, const tree::Tree& tr
   if (tree.unknown_begin.size() != graph.block_size.size() + 1 ||
       static_cast<int>(tree.element_order.size()) != graph.num_elements())
     throw std::invalid_argument("Hierarchical: the tree was made from another graph");
-  state_ = std::make_unique<State>(graph, tree, options, false);
+  state_ = std::make_unique<State>(graph, tree, options);
 }
 
 Hierarchical::~Hierarchical() = default;
@@ -87,59 +87,67 @@ SolverVisits Hierarchical::visits() const {
   return visits;
 }
 
-void Hierarchical::visit_all(const tree::Walker& walker, VisitWork work) const {
+void Hierarchical::visit_all(const tree::Walker& walker, VisitWork work) const { state_->visit_all(walker, work); }
+void Hierarchical::State::visit_all(const tree::Walker& walker, VisitWork work) const {
   auto visit = [&work](int group) { work(group); };
-  walker.walk_up(state_->lanes.walk, tree::make_visit(visit, tree::Work::evaluate));
+  walker.walk_up(lanes.walk, tree::make_visit(visit, tree::Work::evaluate));
 }
 
 FactorStatus Hierarchical::factor(const tree::Walker& walker, VisitWork before, const double* rhs) {
-  State& s = *state_;
-  s.status = {};
-  s.visit_rhs = rhs;
-  if (s.scales_wanted) {
+  return state_->factor_all(walker, before, rhs, {});
+}
+
+FactorStatus Hierarchical::State::factor_all(const tree::Walker& walker, VisitWork before, const double* rhs,
+                                             VisitWork after) {
+  status = {};
+  visit_rhs = rhs;
+  if (scales_wanted) {
     if (before) visit_all(walker, std::exchange(before, {}));
-    s.elements.eval_scales(s.scales, s.residual);
-    s.next_measurement = 0;
-    s.check_all_symmetric();
-    if (s.is_symmetric()) s.scales.row = s.scales.column;  // equal except for the order of a sum
-    s.lane_scales.set(s.lanes, s.tree, s.scales);
-    std::fill(s.leaves_to_root.begin(), s.leaves_to_root.end(), char{0});
-    std::fill(s.leaving_lanes.begin(), s.leaving_lanes.end(), LaneSet{0});
+    elements.eval_scales(scales, residual);
+    next_measurement = 0;
+    check_all_symmetric();
+    if (is_symmetric()) scales.row = scales.column;  // equal except for the order of a sum
+    lane_scales.set(lanes, tree, scales);
+    std::fill(leaves_to_root.begin(), leaves_to_root.end(), char{0});
+    std::fill(leaving_lanes.begin(), leaving_lanes.end(), LaneSet{0});
   }
-  s.scales_wanted = false;
-  s.factor_walker = walker;
-  auto visit = [&s, &before](int group) { s.factor_group(group, before); };
-  s.mark = walker.mark;
-  walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
-  if (s.is_symmetric()) {
-    s.check_visits_symmetric();
-    if (!s.is_symmetric()) {
+  scales_wanted = false;
+  factor_walker = walker;
+  auto visit = [&](int group) {
+    factor_group(group, before);
+    if (after) after(group);
+  };
+  mark = walker.mark;
+  walker.walk_up(lanes.walk, tree::make_visit(visit, tree::Work::factor));
+  if (is_symmetric()) {
+    check_visits_symmetric();
+    if (!is_symmetric()) {
       before = {};  // the element matrices are present
-      walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
+      walker.walk_up(lanes.walk, tree::make_visit(visit, tree::Work::factor));
     }
   }
-  s.null_space.dimension = 0;
-  s.null_space.took_vectors = false;
-  while (!s.find_local_null_vectors()) {  // at most three times, see there
+  null_space.dimension = 0;
+  null_space.took_vectors = false;
+  while (!find_local_null_vectors()) {  // at most three times, see there
     before = {};
-    walker.walk_up(s.lanes.walk, tree::make_visit(visit, tree::Work::factor));
+    walker.walk_up(lanes.walk, tree::make_visit(visit, tree::Work::factor));
   }
-  ++s.counters.factorizations;
-  for (tree::FrontId f : s.scalar_fronts) s.count_front(f);
-  for (std::size_t i = 0; i < s.scalar_lanes.size(); ++i)
-    for (int l = 0; s.scalar_lanes[i] != 0 && l < lanes_wide; ++l)
-      if ((s.scalar_lanes[i] >> l & 1) != 0) {
-        s.count_front(s.lanes.fronts[i].front[at(l)]);
-        ++s.counters.lanes_left;
+  ++counters.factorizations;
+  for (tree::FrontId f : scalar_fronts) count_front(f);
+  for (std::size_t i = 0; i < scalar_lanes.size(); ++i)
+    for (int l = 0; scalar_lanes[i] != 0 && l < lanes_wide; ++l)
+      if ((scalar_lanes[i] >> l & 1) != 0) {
+        count_front(lanes.fronts[i].front[at(l)]);
+        ++counters.lanes_left;
       }
-  s.counters.delayed_pivots += s.status.delayed_pivots;
-  if (s.status.ok()) s.decide_rank();
-  if (s.status.ok()) s.find_null_space();
+  counters.delayed_pivots += status.delayed_pivots;
+  if (status.ok()) decide_rank();
+  if (status.ok()) find_null_space();
   // With dependent rows the right-hand side has to be made consistent first, and candidates of null vectors are computed
   // in the storage of the condensed one.
-  s.is_condensed = rhs != nullptr && s.null_space.deficiency() == 0 && !s.null_space.took_vectors;
-  if (s.is_condensed) s.forward_group(static_cast<int>(s.lanes.groups.size()) - 1);
-  return s.status;
+  is_condensed = rhs != nullptr && null_space.deficiency() == 0 && !null_space.took_vectors;
+  if (is_condensed) forward_group(static_cast<int>(lanes.groups.size()) - 1);
+  return status;
 }
 
 void Hierarchical::condense(const tree::Walker& walker, VisitWork before, const double* rhs) {

@@ -11,7 +11,7 @@ namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
-Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o, bool keep_all)
+Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o)
     : tree(t),
       options(o),
       lanes(make_lane_plan(graph, t, o.lanes && o.elimination == Elimination::flat,
@@ -34,7 +34,6 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
     symmetry.used = Symmetry::general;
     symmetry.loss = SymmetryLoss::augmented_elimination;
   }
-  keeps_all = keep_all || options.elimination == Elimination::augmented;
   vector_begin.assign(1, 0);
   index_begin.assign(1, 0);
   own_begin.assign(1, 0);
@@ -51,7 +50,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
     run_begin.push_back(static_cast<std::int64_t>(runs.size()));
   }
   size_factors();
-  schur_places = plan_schur(tree, lanes.lane_front, keeps_all, is_symmetric());
+  schur_places = plan_schur(tree, lanes.lane_front, is_symmetric());
   schur_pool.resize(at(schur_places.pool));
   vector_pool.resize(at(vector_begin.back()));
   index_pool.resize(at(index_begin.back()));

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -118,8 +117,7 @@ constexpr std::int64_t room_of_vector = 1 << 11;
 inline std::int64_t vector_size(std::int64_t unknowns) { return unknowns <= room_of_vector ? unknowns : 2 * unknowns; }
 
 struct Hierarchical::State {
-  /// keep_all: all Schur complements are kept until the next factorization, for reports.
-  State(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options, bool keep_all);
+  State(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options);
 
   const tree::Tree& tree;
   SolveOptions options;
@@ -136,7 +134,6 @@ struct Hierarchical::State {
   SymmetryReport symmetry;
   bool trusts_symmetry = false;
   std::vector<Asymmetry> asymmetries;  ///< by group: the first that the visit found
-  bool keeps_all = false;
   SchurPlaces schur_places;
   LaneDoubles factor_pool, schur_pool;
   std::vector<double> vector_pool;
@@ -164,9 +161,6 @@ struct Hierarchical::State {
   std::vector<LaneSet> leaving_lanes;  ///< by front of LanePlan: left in the last factorization for dependent rows
   std::vector<LaneSet> scalar_lanes;  ///< by front of LanePlan: lanes that needed the scalar path in this factorization
   std::vector<SolutionSizes> sizes;   ///< by group
-  std::mutex reporting;               ///< held while the twin is made
-  std::unique_ptr<Hierarchical> twin;    ///< a solver without lanes, for reports that need all Schur complements
-  std::int64_t twin_factorization = -1;  ///< number of the factorization that it has
   /// Matrices and factors do not stay in the caches between walks: they are prefetched, and written past the caches.
   bool exceeds_caches = false;
   bool reads_factors_ahead = false;   ///< factors do not stay in the nearer caches
@@ -180,6 +174,10 @@ struct Hierarchical::State {
   tree::Mark mark;                    ///< of the present walk
   tree::Walker factor_walker;         ///< of the present factorization: distributes the work on large fronts
 
+  // hierarchical.cpp
+  void visit_all(const tree::Walker& walker, VisitWork work) const;
+  /// factor(); `after` runs at the end of each visit of a group.
+  FactorStatus factor_all(const tree::Walker& walker, VisitWork before, const double* rhs, VisitWork after);
   // lane_walks.cpp, residual_walks.cpp: visits of groups
   void factor_group(int group, const VisitWork& before);
   void forward_group(int group);
@@ -286,6 +284,8 @@ struct Hierarchical::State {
   void condense_through_flexibility(tree::SubdomainId s);
   void correct_forward(tree::SubdomainId s);
   std::vector<double> interface_stiffness(tree::SubdomainId s) const;
+  void copy_schur(tree::FrontId f, double* to);
+  InterfaceReport report_interface(tree::SubdomainId s, int widest);
 
   const tree::Front& front(tree::FrontId f) const { return tree.fronts[static_cast<std::size_t>(f)]; }
   FrontData& data(tree::FrontId f) { return fronts[static_cast<std::size_t>(f)]; }

@@ -3,7 +3,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <limits>
+#include <utility>
 
 #include "decompositions.hpp"
 #include "hierarchical_state.hpp"
@@ -93,100 +94,75 @@ void Hierarchical::State::correct_forward(tree::SubdomainId s) {
   g.noalias() = Eigen::Map<const Matrix>(interface.inverse.data(), n, n) * moved;
 }
 
-namespace {
-
-/// All sub-domains one after the other.
-tree::Walker serial_walker() {
-  return {[](void*, const tree::Tree& tree, tree::Visit visit) {
-            for (tree::SubdomainId s = 0; s < tree.num_subdomains(); ++s) visit.run(visit.context, s);
-          },
-          [](void*, const tree::Tree& tree, tree::Visit visit) {
-            for (tree::SubdomainId s = tree.num_subdomains(); s-- > 0;) visit.run(visit.context, s);
-          },
-          [](void*, std::int64_t count, std::int64_t grain, tree::Chunk chunk) {
-            for (std::int64_t i = 0; i < count; i += grain) chunk.run(chunk.context, i, std::min(i + grain, count));
-          },
-          nullptr};
+/// Copies the Schur complement that the visit of a front has left, in scaled variables, to n x n entries by columns.
+void Hierarchical::State::copy_schur(tree::FrontId f, double* to) {
+  const bool is_in_lane = !is_scalar(f);
+  const int n = front(f).num_boundary;
+  Map S(to, n, n, Eigen::OuterStride<>(n));
+  bool is_triangle = data(f).is_symmetric();
+  if (is_in_lane) {
+    const LaneFront& common = lanes.fronts[at(lanes.lane_front[at(f)])];
+    const double* schur = schur_of(common) + lanes.lane[at(f)];
+    is_triangle = common.is_symmetric;
+    for_boundary(f, [&](int j, std::size_t column) {
+      for_boundary(f, [&](int i, std::size_t row) {
+        const std::int64_t entry = static_cast<std::int64_t>(j) * common.boundary + i;
+        S(i, j) = scales.row[row] * schur[entry * lanes_wide] * scales.column[column];
+      });
+    });
+  } else {
+    S = ConstMap(data(f).s, n, n, Eigen::OuterStride<>(data(f).lds));
+  }
+  if (is_triangle) S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
 }
 
-}  // namespace
+/// At the end of the visit of a sub-domain.
+InterfaceReport Hierarchical::State::report_interface(tree::SubdomainId s, int widest) {
+  const tree::Subdomain& sub = tree.subdomains[at(s)];
+  const tree::FrontId top = sub.top();
+  const int n = front(top).num_boundary;
+  InterfaceReport report{.subdomain = s, .level = sub.level, .num_unknowns = n};
+  report.flops = sub.flops;
+  if (is_scalar(top)) report.num_delayed = data(top).num_delayed();
+  if (n > widest) report.condition = std::numeric_limits<double>::quiet_NaN();
+  if (n == 0 || n > widest || (is_scalar(top) && data(top).failed)) return report;
+  const std::vector<double> stiffness = interface_stiffness(s);
+  Matrix stiffened(n, n);
+  copy_schur(top, stiffened.data());
+  std::vector<int> motion;
+  for (int i = 0; i < n; ++i) {
+    stiffened(i, i) += options.penalty_factor * stiffness[at(i)];
+    if (stiffness[at(i)] > 0.0) motion.push_back(i);
+  }
+  const std::optional<Matrix> flexibility = solve_if_regular(stiffened, Matrix::Identity(n, n));
+  if (!flexibility) return report;  // rows that are empty here belong to unknowns that are held further up
+  const auto size = static_cast<Eigen::Index>(motion.size());
+  Matrix scaled(size, size);
+  for (Eigen::Index i = 0; i < size; ++i)
+    for (Eigen::Index j = 0; j < size; ++j) {
+      const int k = motion[at(i)], l = motion[at(j)];
+      scaled(i, j) = (*flexibility)(k, l) * options.penalty_factor * std::sqrt(stiffness[at(k)] * stiffness[at(l)]);
+    }
+  if (motion.empty() || !scaled.allFinite()) return report;
+  const Eigen::VectorXd values = singular_values(scaled);
+  Eigen::Index last = values.size() - 1;  // directions that joints hold at the interface itself have no flexibility
+  while (last > 0 && values(last) <= 1e-13 * values(0)) --last;
+  if (values(last) > 0.0) report.condition = values(0) / values(last);
+  return report;
+}
 
-/// Only factors are kept, not the Schur complements that reports need. These come from a factorization of the same
-/// matrices and scales that stores all of them (symmetric ones as one triangle), without lanes, made at the first
-/// report.
-const Hierarchical& Hierarchical::reporting_solver() const {
+std::vector<InterfaceReport> Hierarchical::interfaces(const tree::Walker& walker, int widest) {
   State& s = *state_;
-  const std::lock_guard lock(s.reporting);
-  if ((s.keeps_all && s.lanes.fronts.empty() && !s.is_symmetric()) || s.counters.factorizations == 0) return *this;
-  if (s.twin == nullptr) {
-    SolveOptions options = s.options;
-    options.lanes = false;
-    options.symmetry = Symmetry::general;
-    s.twin = std::make_unique<Hierarchical>(s.elements.graph(), s.tree, options);
-    s.twin->state_ = std::make_unique<State>(s.elements.graph(), s.tree, options, true);
-  }
-  State& twin = *s.twin->state_;
-  if (s.twin_factorization != s.counters.factorizations) {
-    for (int e = 0; e < s.elements.graph().num_elements(); ++e) {
-      const int n = s.elements.size_of(e);
-      for (int k = 0; k < n * n; ++k) twin.elements.view(e)[k] = s.elements.view(e)[k];
-    }
-    twin.scales = s.scales;
-    twin.scales_wanted = false;
-    (void)s.twin->factor(serial_walker());
-    s.twin_factorization = s.counters.factorizations;
-  }
-  return *s.twin;
-}
-
-std::vector<InterfaceReport> Hierarchical::interfaces(int widest) const {
-  const State& state = *reporting_solver().state_;
-  std::vector<InterfaceReport> reports;
-  for (tree::SubdomainId s = 0; s < state.tree.root(); ++s) {
-    const tree::Subdomain& sub = state.tree.subdomains[at(s)];
-    const FrontData& d = state.data(sub.top());
-    const int n = d.size - d.full;
-    InterfaceReport report{.subdomain = s, .level = sub.level, .num_unknowns = n, .num_delayed = d.num_delayed()};
-    report.flops = sub.flops;
-    if (n > widest) {
-      report.condition = std::numeric_limits<double>::quiet_NaN();
-      reports.push_back(report);
-      continue;
-    }
-    if (n > 0 && !d.failed && state.counters.factorizations > 0) {
-      std::vector<double> stiffness = state.interface_stiffness(s);
-      Matrix stiffened = ConstMap(d.s, n, n, Eigen::OuterStride<>(d.lds));
-      std::vector<int> motion;
-      for (int i = 0; i < n; ++i) {
-        const double penalty = state.options.penalty_factor * stiffness[at(i)];
-        stiffened(i, i) += penalty;
-        if (penalty <= 0.0) continue;
-        report.penalty_least = motion.empty() ? penalty : std::min(report.penalty_least, penalty);
-        report.penalty_most = std::max(report.penalty_most, penalty);
-        motion.push_back(i);
-      }
-      const std::optional<Matrix> flexibility = solve_if_regular(stiffened, Matrix::Identity(n, n));
-      if (!flexibility) {  // rows that are empty here belong to unknowns that are held further up
-        reports.push_back(report);
-        continue;
-      }
-      const Matrix& F = *flexibility;
-      Matrix scaled(motion.size(), motion.size());
-      for (std::size_t i = 0; i < motion.size(); ++i)
-        for (std::size_t j = 0; j < motion.size(); ++j)
-          scaled(static_cast<int>(i), static_cast<int>(j)) =
-              F(motion[i], motion[j]) * state.options.penalty_factor *
-              std::sqrt(stiffness[at(motion[i])] * stiffness[at(motion[j])]);
-      if (!motion.empty() && scaled.allFinite()) {
-        const Eigen::VectorXd values = singular_values(scaled);
-        Eigen::Index last =
-            values.size() - 1;  // directions that joints hold at the interface itself have no flexibility
-        while (last > 0 && values(last) <= 1e-13 * values(0)) --last;
-        if (values(last) > 0.0) report.condition = values(0) / values(last);
-      }
-    }
-    reports.push_back(report);
-  }
+  std::vector<InterfaceReport> reports(at(s.tree.root()));
+  auto look = [&](int group) {
+    for (const tree::SubdomainId id : s.lanes.groups[at(group)].subdomains)
+      if (id != s.tree.root()) reports[at(id)] = s.report_interface(id, widest);
+  };
+  const SolverCounters counted = s.counters;
+  const bool scales_wanted = std::exchange(s.scales_wanted, false);
+  (void)s.factor_all(walker, {}, nullptr, make_visit_work(look));
+  s.scales_wanted = scales_wanted;
+  s.counters = counted;
   return reports;
 }
 

@@ -153,7 +153,6 @@ void SparseOracle::multiply(const tree::Walker& walker, const double* x, double*
   state_->elements.multiply(walker, x, y);
 }
 std::vector<int> SparseOracle::blocks_not_unique() const { return {}; }
-std::vector<InterfaceReport> SparseOracle::interfaces() const { return {}; }
 
 FactorStatus SparseOracle::factor(const tree::Walker& /*walker*/) {
   State& s = *state_;

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "bough/results/interface_force.hpp"
+#include "bough/schedule/serial.hpp"
 #include "bough/schedule/threads.hpp"
 #include "profile_cost.hpp"
 #include "profile_parts.hpp"
@@ -308,7 +309,8 @@ records::Profile profile(const scene::Scene& given, const ProfileOptions& option
     found.shapes = solve::make_visit_shapes(found.graph, found.tree, found.options);
     found.counters = system.linear().solver().counters();
     if (system.counts().factorizations > 0 && system.linear().solver().last_status().ok())
-      found.interfaces = system.linear().solver().hierarchical()->interfaces(options.widest_condition);
+      found.interfaces =
+          system.linear().solver().hierarchical()->interfaces(schedule::make_serial_walker(), options.widest_condition);
     found.interface_forces = eval_interface_forces(system, state);
     out.is_dynamic = system.plan().is_dynamic;
     draw_parts(system.plan(), found.tree, out);

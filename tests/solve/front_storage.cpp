@@ -46,7 +46,7 @@ class Places {
  public:
   Places(const tree::Tree& tree, bool is_symmetric)
       : tree_(tree),
-        places_(solve::plan_schur(tree, std::vector<int>(tree.fronts.size(), -1), false, is_symmetric)),
+        places_(solve::plan_schur(tree, std::vector<int>(tree.fronts.size(), -1), is_symmetric)),
         factor_(tree.fronts.size()) {
     std::int64_t end = places_.pool;
     for (std::size_t f = 0; f < factor_.size(); ++f) {

@@ -15,7 +15,8 @@ Outcome run(const Scene& scene, double factor, solve::Elimination elimination) {
   Solved s(scene, {.leaf_size = 6}, {.elimination = elimination, .penalty_factor = factor, .refinement_steps = 0});
   EXPECT_TRUE(s.factor().ok());
   Outcome o;
-  for (const auto& i : s.solver.interfaces()) o.condition = std::max(o.condition, i.condition);
+  for (const auto& i : s.solver.interfaces(schedule::make_serial_walker()))
+    o.condition = std::max(o.condition, i.condition);
   Solved reference(scene, {.depth = 0}, {});
   EXPECT_TRUE(reference.factor().ok());
   const Eigen::VectorXd b = s.random_rhs(3);

@@ -90,6 +90,7 @@ class AnySolver {
   }
   /// The hierarchical solver, or null if another one is stored.
   const Hierarchical* hierarchical() const { return std::get_if<Hierarchical>(&solver_); }
+  Hierarchical* hierarchical() { return std::get_if<Hierarchical>(&solver_); }
   /// The form with global multipliers, or null if another solver is stored.
   const Dual* dual() const { return std::get_if<Dual>(&solver_); }
 

@@ -92,10 +92,12 @@ class Hierarchical {
   /// Preconditions: SolveOptions::inertia, factor() was ok. Allocates only if rows were exchanged or the root is
   /// singular.
   Inertia inertia();
-  /// Interfaces of all sub-domains but the root, in order. Condition numbers are computed for those with at most
-  /// `widest` unknowns (dense singular values, for reports; allocates) and are NaN for others. flops: of the
-  /// sub-domain's own fronts; seconds are not measured.
-  std::vector<InterfaceReport> interfaces(int widest = std::numeric_limits<int>::max()) const;
+  /// Interfaces of all sub-domains but the root, in order. Only factors are kept, so this repeats the last
+  /// factorization and looks at each Schur complement at the end of its visit; factors are the same afterwards.
+  /// Condition numbers are computed for interfaces with at most `widest` unknowns (dense singular values, for reports;
+  /// allocates) and are NaN for others. flops: of the sub-domain's own fronts; seconds are not measured. Precondition:
+  /// factor() was ok, and the element matrices are still those.
+  std::vector<InterfaceReport> interfaces(const tree::Walker& walker, int widest = std::numeric_limits<int>::max());
   /// Blocks whose multipliers are not unique (they take part in a null vector), ascending. Empty without deficiency.
   std::vector<int> blocks_not_unique() const;
   /// Scale of every unknown and of every row (powers of two): scaled A = row_scale A column_scale.
@@ -105,7 +107,6 @@ class Hierarchical {
 
  private:
   struct State;
-  const Hierarchical& reporting_solver() const;
   std::unique_ptr<State> state_;
 };
 

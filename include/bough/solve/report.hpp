@@ -85,9 +85,7 @@ struct InterfaceReport {
   int num_unknowns = 0;  ///< motion unknowns and multipliers tied to the interface mesh.
   int num_delayed = 0;   ///< unknowns whose pivots were delayed past this interface.
   double condition =
-      1.0;  ///< of P^1/2 F P^1/2 on the motion unknowns that joints leave free, F = s^2 (S + P)^-1 (2-norm).
-  double penalty_least = 0.0;  ///< smallest and largest P used [-].
-  double penalty_most = 0.0;
+      1.0;             ///< of P^1/2 F P^1/2 on the motion unknowns that joints leave free, F = s^2 (S + P)^-1 (2-norm).
   int num_coarse = 0;  ///< global multipliers: unknowns of the coarse problem (interface mesh and floating directions).
   int num_floating = 0;  ///< global multipliers: of these, directions in which sub-domains float or nearly do.
   double flops = 0.0;    ///< of the interface problem, one factorization (iterative: the last solution) [flop].

@@ -49,8 +49,7 @@ class SparseOracle {
   void multiply(const tree::Walker& walker, const double* x, double* y) const;
   const FactorStatus& last_status() const;
   SolverCounters counters() const;
-  std::vector<int> blocks_not_unique() const;       ///< always empty: unknown here.
-  std::vector<InterfaceReport> interfaces() const;  ///< always empty: there are none.
+  std::vector<int> blocks_not_unique() const;  ///< always empty: unknown here.
 
  private:
   struct State;
