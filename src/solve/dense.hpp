@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "bough/tree/walker.hpp"
+#include "pivot_rule.hpp"
 
 namespace bough::solve {
 
@@ -47,18 +48,6 @@ struct FrontParts {
   double* top(int j) const { return j < full ? a + j * lda : u + (j - full) * ldu; }
   /// Rows from `full` on of column j.
   double* bottom(int j) const { return j < full ? a + j * lda + full : s + (j - full) * lds; }
-};
-
-/// Conditions for accepting a pivot.
-struct PivotRule {
-  double threshold = 0.02;  ///< smallest ratio to the column's largest entry, boundary rows included
-  double least = 1e-9;      ///< smallest magnitude
-  /// By global unknown: those whose pivots must reach least_of_marked as well; null: none.
-  const bool* marked = nullptr;
-  double least_of_marked = 0.0;
-  double least_of(int unknown) const {
-    return marked != nullptr && marked[unknown] && least_of_marked > least ? least_of_marked : least;
-  }
 };
 
 /// Eliminates as many fully summed unknowns as the rule allows. The diagonal is preferred, and rows are exchanged only

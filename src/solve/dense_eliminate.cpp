@@ -59,8 +59,7 @@ int eliminate_panel(const FrontParts& v, FrontMatrix& f, const PivotRule& rule, 
     const double* column = v.top(k);
     const double largest = find_largest(column, k, f.size);
     if (!std::isfinite(largest)) return -1;
-    const double least =
-        std::max({rule.threshold * largest, rule.least_of(f.columns[k]), std::numeric_limits<double>::min()});
+    const double least = rule.least_beside(largest, f.columns[k]);
     int row = k;
     if (std::abs(column[k]) < least) row = find_row_of_largest(column, k, f.full);
     if (std::abs(column[row]) >= least) {

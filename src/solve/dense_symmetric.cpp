@@ -95,8 +95,7 @@ int eliminate_panel(const FrontParts& v, FrontMatrix& f, const PivotRule& rule, 
     const double* column = v.top(k);
     const double largest = find_largest(column, k, f.size);
     if (!std::isfinite(largest)) return -1;
-    const double least =
-        std::max({rule.threshold * largest, rule.least_of(f.columns[k]), std::numeric_limits<double>::min()});
+    const double least = rule.least_beside(largest, f.columns[k]);
     if (std::abs(column[k]) >= least) {
       eliminate_one(v, f.d, k, end);
       ++k;

@@ -48,7 +48,7 @@ void LanePlanner::add_fronts(LaneGroup& group, tree::Subdomain& node) {
     add_moves(f);
     f.factor = plan_.factor_size;
     plan_.factor_size += f.factor_size();
-    node.flops += lanes_wide * flops_of(f.eliminated, f.boundary);
+    node.flops += lanes_wide * cost_of(f.eliminated, f.boundary);
     plan_.fronts.push_back(f);
   }
   place_work(group);

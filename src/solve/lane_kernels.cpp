@@ -61,7 +61,7 @@ inline void update_right(const Front& f, int k0, int column) {
 
 /// One register of lanes.
 unsigned eliminate_register(const Front& f, const double* row_scale, const double* inverse_column_scale,
-                            const LanePivotRule& rule, Transfers& beside) {
+                            const PivotRule& rule, Transfers& beside) {
   unsigned failed = 0;
   for (int k0 = 0; k0 < f.e;) {
     const int k = std::min(panel_width, f.e - k0);
@@ -86,7 +86,7 @@ unsigned eliminate_register(const Front& f, const double* row_scale, const doubl
 }  // namespace
 
 LaneSet eliminate_lanes(double* factor, double* schur, int n, int e, const double* row_scale,
-                        const double* inverse_column_scale, const LanePivotRule& rule, Transfers& beside) {
+                        const double* inverse_column_scale, const PivotRule& rule, Transfers& beside) {
   unsigned failed = 0;
   for (int l = 0; l < wide; l += width)
     failed |= eliminate_register(register_of(factor, schur, n, e, l, Symmetry::general), row_scale + l,

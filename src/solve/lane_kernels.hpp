@@ -6,6 +6,7 @@
 
 #include "bough/solve/element_view.hpp"
 #include "bough/solve/options.hpp"
+#include "pivot_rule.hpp"
 
 namespace bough::solve {
 
@@ -16,24 +17,18 @@ class Transfers;
 /// Bit l: lane l.
 using LaneSet = std::uint8_t;
 
-/// Conditions for a pivot without exchange.
-struct LanePivotRule {
-  double threshold = 1e-3;  ///< smallest ratio to the column's largest entry, rows scaled
-  double least = 1e-10;     ///< smallest magnitude, rows and columns scaled
-};
-
 /// Eliminates the first e of n unknowns. factor: e columns of n entries, then n - e columns of e entries; schur: the
 /// other columns' rows below. After: L (unit) below the diagonal, the inverse pivots on it, U above and in the
 /// further columns, the Schur complement. row_scale: n packs, inverse_column_scale: e packs. Returns the lanes with a
 /// pivot that violates the rule; they contain an identity from there on. beside: steps elimination_steps(n, e) times.
 LaneSet eliminate_lanes(double* factor, double* schur, int n, int e, const double* row_scale,
-                        const double* inverse_column_scale, const LanePivotRule& rule, Transfers& beside);
+                        const double* inverse_column_scale, const PivotRule& rule, Transfers& beside);
 
 /// The same for symmetric fronts, L D L^T. factor: e columns of n entries, schur as above; entries above the diagonals
 /// are not read. After: L (unit) below the diagonal, the inverse of D on it, the Schur complement on and below its
 /// diagonal; entries above are undefined.
 LaneSet eliminate_lanes_symmetric(double* factor, double* schur, int n, int e, const double* scale,
-                                  const double* inverse_scale, const LanePivotRule& rule, Transfers& beside);
+                                  const double* inverse_scale, const PivotRule& rule, Transfers& beside);
 int elimination_steps(int n, int e);
 constexpr int most_lane_rows = 2 * lanes_wide * lanes_wide;  ///< no front in lanes has more rows
 

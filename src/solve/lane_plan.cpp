@@ -62,14 +62,14 @@ std::optional<LanePlanner::Match> LanePlanner::match(tree::SubdomainId a, tree::
     if (fa != tree::none) {
       e = front(fa).num_eliminated;
       bd = front(fa).num_boundary;
-      m.a += flops_of(e, bd);
+      m.a += cost_of(e, bd);
     }
     if (fb != tree::none) {
       e = std::max(e, front(fb).num_eliminated);
       bd = std::max(bd, front(fb).num_boundary);
-      m.b += flops_of(front(fb).num_eliminated, front(fb).num_boundary);
+      m.b += cost_of(front(fb).num_eliminated, front(fb).num_boundary);
     }
-    m.common += flops_of(e, bd);
+    m.common += cost_of(e, bd);
     if (na == nb && k + 1 < count &&
         front(fa).parent - subdomain(a).front_begin != front(fb).parent - subdomain(b).front_begin)
       return std::nullopt;

@@ -16,9 +16,10 @@ class LanePlanner {
 
  private:
   static std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-  static double flops_of(int eliminated, int boundary) {
-    const double e = eliminated, n = e + boundary;
-    return e * n * n * 2.0 - e * e * n * 2.0 + e * e * e * (2.0 / 3.0) + n * n;
+  /// Elimination, and one pass over the front for its assembly.
+  static double cost_of(int eliminated, int boundary) {
+    const double n = eliminated + boundary;
+    return tree::elimination_flops(eliminated, boundary) + n * n;
   }
   static bool is_empty_lane(const LaneFront& f, int lane) { return f.front[at(lane)] == tree::none; }
   const tree::Front& front(tree::FrontId f) const { return tree_.fronts[at(f)]; }

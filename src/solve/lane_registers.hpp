@@ -193,7 +193,7 @@ constexpr int panel_width = 6;  ///< pivots of one update
 /// read.
 template <int K, Symmetry symmetry>
 inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale, const double* inverse_column_scale,
-                                const LanePivotRule& rule) {
+                                const PivotRule& rule) {
   const std::ptrdiff_t ld = f.ld();
   double* block = f.left + k0 * ld + k0 * wide;
   Flag good = ~Flag{};
@@ -268,7 +268,7 @@ inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld,
 /// one step for every four rows or fewer.
 template <int K, Symmetry symmetry>
 inline unsigned eliminate_panel(const Front& f, int k0, const double* row_scale, const double* inverse_column_scale,
-                                const LanePivotRule& rule, double* products, Transfers& beside) {
+                                const PivotRule& rule, double* products, Transfers& beside) {
   const std::ptrdiff_t ld = f.ld();
   unsigned refused = eliminate_block<K, symmetry>(f, k0, row_scale, inverse_column_scale, rule);
   if (refused != 0) neutralise(f, refused);

@@ -44,7 +44,7 @@ inline void update(const Front& f, int k0, int column, const double* products) {
 }
 
 /// One register of lanes.
-unsigned eliminate_register(const Front& f, const double* scale, const double* inverse_scale, const LanePivotRule& rule,
+unsigned eliminate_register(const Front& f, const double* scale, const double* inverse_scale, const PivotRule& rule,
                             Transfers& beside) {
   alignas(64) double products[most_lane_rows * panel_width * wide];
   unsigned failed = 0;
@@ -78,7 +78,7 @@ inline void backward_triangle(const double* l, std::ptrdiff_t ld, double* v) {
 }  // namespace
 
 LaneSet eliminate_lanes_symmetric(double* factor, double* schur, int n, int e, const double* scale,
-                                  const double* inverse_scale, const LanePivotRule& rule, Transfers& beside) {
+                                  const double* inverse_scale, const PivotRule& rule, Transfers& beside) {
   unsigned failed = 0;
   for (int l = 0; l < wide; l += width) {
     const Front f = register_of(factor, schur, n, e, l, Symmetry::symmetric);

@@ -183,7 +183,7 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
         factor[static_cast<std::int64_t>(k / wide) * (n + 1) * wide + k % wide] = 1.0;
   if (alone != 0) neutralise_lanes(factor, schur, n, e, alone, symmetry.used);
   mark(tree::Stage::assemble);
-  const LanePivotRule rule{options.pivot_threshold, options.tiny_pivot};
+  const PivotRule rule{options.pivot_threshold, options.tiny_pivot};
   const auto eliminate = f.is_symmetric ? eliminate_lanes_symmetric : eliminate_lanes;
   const LaneSet refused =
       eliminate(factor, schur, n, e, lane_scales.row(index), lane_scales.inverse_column(f, index), rule, transfers);

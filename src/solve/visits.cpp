@@ -9,19 +9,9 @@ namespace {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-/// sum over pivots k of 2 m^2 + m, m = e + b - k - 1 rows and columns left.
-double flops_of(int eliminated, int boundary) {
-  double flops = 0.0;
-  for (int k = 0; k < eliminated; ++k) {
-    const double m = eliminated + boundary - k - 1;
-    flops += 2.0 * m * m + m;
-  }
-  return flops;
-}
-
 void add_front(VisitShape& shape, int eliminated, int boundary) {
   ++shape.num_fronts;
-  shape.flops += flops_of(eliminated, boundary);
+  shape.flops += tree::elimination_flops(eliminated, boundary);
   shape.condense_flops += 2.0 * eliminated * boundary * boundary;
 }
 

@@ -65,9 +65,6 @@ class Quotient {
   int stamp_ = 0;
 };
 
-/// Flops of eliminating e of e + b unknowns in a dense unsymmetric front.
-double elimination_flops(int e, int b);
-
 /// Merges groups [first, end) of one leaf into their parents where the merger causes no fill, or where the fill is
 /// cheaper than visiting one more front [flop]. missing: number of unknowns by which the counted boundaries are too
 /// small.

@@ -113,4 +113,7 @@ struct Tree {
 /// is consistent (checked by require, O(size)). Deterministic. Allocates.
 Tree make_tree(const blocks::BlockGraph& graph, const TreeOptions& options = {});
 
+/// Flops of eliminating e of e + b unknowns in a dense front that is not symmetric.
+double elimination_flops(int e, int b);
+
 }  // namespace bough::tree
