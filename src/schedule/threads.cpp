@@ -6,6 +6,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "bough/blocks/at.hpp"
 #include "bough/schedule/serial.hpp"
 #ifdef BOUGH_HAS_TBB
 #include <tbb/blocked_range.h>
@@ -20,9 +21,6 @@
 namespace bough::schedule {
 
 #ifdef BOUGH_HAS_TBB
-namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-}  // namespace
 #endif
 
 struct Threads::State {

@@ -5,6 +5,8 @@
 #include <type_traits>
 #ifdef BOUGH_HAS_TBB
 #include <tbb/task_arena.h>
+
+#include "bough/blocks/at.hpp"
 #endif
 
 namespace bough::schedule {
@@ -15,7 +17,6 @@ bool has_stages(tree::Work work) {
   return work == tree::Work::factor || work == tree::Work::forward || work == tree::Work::backward;
 }
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr int most_threads = 1024;
 
 using Clock = std::chrono::steady_clock;

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cstring>
 
+#include "bough/blocks/at.hpp"
 #include "dense_panel.hpp"
 #include "hierarchical_state.hpp"
 
 namespace bough::solve {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Number of columns that are cleared and filled together, so that they stay in the second cache.
 constexpr int doubles_in_cache = 1 << 16;

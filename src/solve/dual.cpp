@@ -6,12 +6,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bough/blocks/at.hpp"
 #include "dual_state.hpp"
 
 namespace bough::solve {
 
 namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr double contradiction = 1e-10;  ///< share of the right-hand side above which dependent rows disagree
 }  // namespace
 

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "bough/blocks/at.hpp"
+
 namespace bough::solve {
 
 namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr std::int64_t chunk_blocks = 128;
 }  // namespace
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "bough/blocks/at.hpp"
+
 namespace bough::solve {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 constexpr int line = 8;       ///< doubles of a cache line
 constexpr int alias = 512;    ///< columns with this distance are on the same lines of the cache

@@ -1,12 +1,12 @@
 /// Copies and ties of the forms with global multipliers, and the sub-domains between the ties.
 #include <algorithm>
 
+#include "bough/blocks/at.hpp"
 #include "dual_state.hpp"
 
 namespace bough::solve {
 
 namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Pivots of a sub-domain below this, scaled, are not eliminated: directions in which it floats or nearly does.
 /// Accepted pivots amplify round-off at most by its inverse; the others are kept with their true matrix, so no accuracy

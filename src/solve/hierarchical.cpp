@@ -6,13 +6,10 @@
 #include <string>
 #include <utility>
 
+#include "bough/blocks/at.hpp"
 #include "hierarchical_state.hpp"
 
 namespace bough::solve {
-
-namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-}  // namespace
 
 std::vector<std::string> problems_in(const SolveOptions& o) {
   std::vector<std::string> problems;

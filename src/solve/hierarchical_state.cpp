@@ -2,14 +2,11 @@
 
 #include <algorithm>
 
+#include "bough/blocks/at.hpp"
 #include "front_storage.hpp"
 #include "last_cache.hpp"
 
 namespace bough::solve {
-
-namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-}  // namespace
 
 Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o)
     : tree(t),

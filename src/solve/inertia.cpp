@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/blocks/at.hpp"
 #include "decompositions.hpp"
 #include "hierarchical_state.hpp"
 
 namespace bough::solve {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Counts of the pivots so far.
 struct PivotSigns {

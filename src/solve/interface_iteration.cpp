@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/blocks/at.hpp"
 #include "decompositions.hpp"
 #include "dual_state.hpp"
 
 namespace bough::solve {
 
 namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 

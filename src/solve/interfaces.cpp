@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "bough/blocks/at.hpp"
 #include "decompositions.hpp"
 #include "hierarchical_state.hpp"
 
@@ -13,7 +14,6 @@ namespace bough::solve {
 
 namespace {
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 using Matrix = Eigen::MatrixXd;
 using ConstMap = Eigen::Map<const Matrix, 0, Eigen::OuterStride<>>;
 using Map = Eigen::Map<Matrix, 0, Eigen::OuterStride<>>;

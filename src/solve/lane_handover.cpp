@@ -2,12 +2,12 @@
 /// solutions.
 #include <array>
 
+#include "bough/blocks/at.hpp"
 #include "hierarchical_state.hpp"
 
 namespace bough::solve {
 
 namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr int wide = lanes_wide;
 }  // namespace
 

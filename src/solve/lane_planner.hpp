@@ -3,6 +3,7 @@
 /// of every block into them (lane_moves.cpp). Internal to solve.
 #include <optional>
 
+#include "bough/blocks/at.hpp"
 #include "lane_plan.hpp"
 
 namespace bough::solve {
@@ -15,7 +16,6 @@ class LanePlanner {
   LanePlan run();
 
  private:
-  static std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
   /// Elimination, and one pass over the front for its assembly.
   static double cost_of(int eliminated, int boundary) {
     const double n = eliminated + boundary;

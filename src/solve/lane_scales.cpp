@@ -1,10 +1,11 @@
 #include "lane_scales.hpp"
 
+#include "bough/blocks/at.hpp"
+
 namespace bough::solve {
 
 namespace {
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr int wide = lanes_wide;
 
 /// Size of its row and inverse column scales.

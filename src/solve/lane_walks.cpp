@@ -3,12 +3,12 @@
 #include <cmath>
 #include <cstring>
 
+#include "bough/blocks/at.hpp"
 #include "hierarchical_state.hpp"
 
 namespace bough::solve {
 
 namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr int wide = lanes_wide;
 }  // namespace
 

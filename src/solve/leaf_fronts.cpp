@@ -2,11 +2,9 @@
 
 #include <algorithm>
 
-namespace bough::solve {
+#include "bough/blocks/at.hpp"
 
-namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-}  // namespace
+namespace bough::solve {
 
 LeafFronts::LeafFronts(const ElementStore& elements, const tree::Tree& tree)
     : elements_(elements), tree_(tree), fronts_(at(tree.num_fronts())) {}

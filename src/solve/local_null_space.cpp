@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/blocks/at.hpp"
 #include "hierarchical_state.hpp"
 
 namespace bough::solve {
 
 namespace {
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr int wide = lanes_wide;
 constexpr int most = NullVectors::most;
 

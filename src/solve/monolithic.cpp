@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bough/blocks/at.hpp"
 #include "element_store.hpp"
 #include "refine.hpp"
 #ifdef BOUGH_HAS_KLU
@@ -14,7 +15,6 @@
 namespace bough::solve {
 
 namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// d^2 in scaled variables, subtracted from the multipliers' diagonal if rows depend on each other. Refinement with the
 /// true system contracts by about d^2 per step. Round-off along null vectors is eps / d^2, which a larger d^2 reduces

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "bough/blocks/at.hpp"
 #include "decompositions.hpp"
 #include "hierarchical_state.hpp"
 
 namespace bough::solve {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Combinations of the columns that are orthonormal after rows are multiplied by `weight`. The second sweep removes
 /// errors of the first that are due to the condition of the columns.

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/blocks/at.hpp"
+
 namespace bough::solve {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// A = L L^T in place, lower triangle of n x n by rows. Returns the smallest ratio of a pivot to `whole`, the diagonal
 /// entry before all elimination.

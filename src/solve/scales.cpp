@@ -2,13 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/blocks/at.hpp"
 #include "element_store.hpp"
 
 namespace bough::solve {
-
-namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-}  // namespace
 
 /// An unknown with a small or zero diagonal may be held through a constraint by unknowns with a larger one (the
 /// rotation of a massless bar with a mass at its end). A row g then gives it the diagonal g_u^2 / sum_{v != u} g_v^2 /

@@ -6,11 +6,11 @@
 #include <functional>
 #include <string_view>
 
+#include "bough/blocks/at.hpp"
+
 namespace bough::solve {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 std::size_t hash_of(const double* values, std::int64_t count) {
   const std::string_view bytes(reinterpret_cast<const char*>(values), at(count) * sizeof(double));

@@ -2,13 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/blocks/at.hpp"
 #include "hierarchical_state.hpp"
 
 namespace bough::solve {
-
-namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-}  // namespace
 
 void Hierarchical::State::forward_front(tree::FrontId f) {
   FrontData& d = data(f);

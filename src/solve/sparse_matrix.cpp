@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/blocks/at.hpp"
+
 namespace bough::solve {
 
 namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Calls visit(row, column, entry of the element matrix) for all entries of all elements, in the order of
 /// SparseAssembly::slots_.

@@ -6,13 +6,13 @@
 #include <utility>
 #include <variant>
 
+#include "bough/blocks/at.hpp"
 #include "refine.hpp"
 #include "sparse_matrix.hpp"
 
 namespace bough::solve {
 
 namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// d^2 in scaled variables: refinement contracts by about d^2 per step, and errors along null vectors are eps / d^2;
 /// the value balances both.

@@ -1,14 +1,11 @@
 /// The upward walk of factor(): sizes fronts and eliminates.
 #include <algorithm>
 
+#include "bough/blocks/at.hpp"
 #include "front_storage.hpp"
 #include "hierarchical_state.hpp"
 
 namespace bough::solve {
-
-namespace {
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-}  // namespace
 
 void Hierarchical::State::factor_subdomain(tree::SubdomainId s) {
   const tree::Subdomain& sub = tree.subdomains[at(s)];

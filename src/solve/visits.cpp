@@ -1,13 +1,12 @@
 #include "bough/solve/visits.hpp"
 
+#include "bough/blocks/at.hpp"
 #include "front_storage.hpp"
 #include "lane_plan.hpp"
 
 namespace bough::solve {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 void add_front(VisitShape& shape, int eliminated, int boundary) {
   ++shape.num_fronts;

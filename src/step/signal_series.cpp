@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bough/blocks/at.hpp"
 #include "bough/elements/reading.hpp"
 
 namespace bough::step {
@@ -9,8 +10,6 @@ namespace bough::step {
 namespace {
 
 using plan::SignalRule;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Whether a signal is made of others at the same instant.
 bool is_made(const plan::SignalPlan& s) {

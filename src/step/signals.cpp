@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "bough/blocks/at.hpp"
 #include "bough/elements/reading.hpp"
 
 namespace bough::step {
@@ -11,8 +12,6 @@ namespace bough::step {
 namespace {
 
 constexpr std::size_t most_of_ports = 12;  ///< unknowns of both ports of a reading
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "bough/blocks/at.hpp"
+
 namespace bough::step {
 
 using motion::Vec3;
@@ -17,8 +19,6 @@ constexpr double settled = 1e-3;     ///< relative change of the curvature at co
 constexpr int most_shifts = 60;      ///< limit of shifts, each four times the last
 constexpr double round_offs = 64.0;  ///< a curvature below this many eps times its terms is taken as zero
 constexpr double neutral = 1e-11;    ///< part of the diagonal that is added if the tangent is singular
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 double length_of(const Vec3<double>& v) { return std::sqrt(lanes::dot(v, v)); }
 

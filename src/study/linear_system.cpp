@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/blocks/at.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/run/simulate.hpp"
 #include "bough/scene/joint_kinds.hpp"
@@ -10,8 +11,6 @@
 namespace bough::study {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 class NoRecorder final : public records::Recorder {
  public:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <thread>
 
+#include "bough/blocks/at.hpp"
 #include "bough/results/interface_force.hpp"
 #include "bough/schedule/serial.hpp"
 #include "bough/schedule/threads.hpp"
@@ -22,7 +23,6 @@ using schedule::WalkTimes;
 using tree::Stage;
 using tree::Work;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr std::size_t of(Work w) { return static_cast<std::size_t>(w); }
 constexpr std::size_t of(Stage s) { return static_cast<std::size_t>(s); }
 constexpr Work walks[] = {Work::factor, Work::forward, Work::backward, Work::residual};

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "bough/blocks/at.hpp"
+
 namespace bough::study {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 std::array<double, 3> point_of(const motion::Vec3<double>& x) { return {x[0], x[1], x[2]}; }
 

@@ -7,11 +7,11 @@
 #include <queue>
 #include <utility>
 
+#include "bough/blocks/at.hpp"
+
 namespace bough::study {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Tasks of a walk as a tree; parents before children.
 struct Task {

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "bough/blocks/at.hpp"
+#include "bough/tree/tree.hpp"
 #include "quotient.hpp"
 
 namespace bough::tree {
@@ -13,8 +15,6 @@ namespace {
 
 /// Number of separators that are compared by predicted cost. Small sets are frequent and matter little.
 constexpr int most_trials = 8, few_trials = 3, small_set = 200;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

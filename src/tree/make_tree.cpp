@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "adjacency.hpp"
+#include "bough/blocks/at.hpp"
 #include "bough/tree/tree.hpp"
 #include "dissect.hpp"
 #include "quotient.hpp"
@@ -10,8 +11,6 @@
 namespace bough::tree {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 void require(bool condition, const char* rule) {
   if (!condition) throw std::invalid_argument(std::string("make_tree: ") + rule);

@@ -4,11 +4,10 @@
 #include <set>
 #include <utility>
 
-namespace bough::tree {
+#include "bough/blocks/at.hpp"
+#include "bough/tree/tree.hpp"
 
-namespace {
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-}  // namespace
+namespace bough::tree {
 
 Quotient::Quotient(const Adjacency& adjacency)
     : adjacency_(adjacency),

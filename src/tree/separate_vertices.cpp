@@ -2,6 +2,7 @@
 #include <cstddef>
 
 #include "bisect.hpp"
+#include "bough/blocks/at.hpp"
 #ifdef BOUGH_HAS_METIS
 #include <metis.h>
 #include <stdlib.h>
@@ -12,8 +13,6 @@
 namespace bough::tree {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Breadth-first levels from a vertex; -1 where not reached. Returns the number of levels.
 int find_levels(const std::vector<int>& row_begin, const std::vector<int>& columns, int start, std::vector<int>& level,
