@@ -7,7 +7,7 @@
 
 #include "bough/plan/plan.hpp"
 #include "bough/run/simulate.hpp"
-#include "bough/solve/monolithic.hpp"
+#include "bough/solve/reference/monolithic.hpp"
 #include "bough/tree/tree.hpp"
 #include "profile_run.hpp"
 

@@ -18,7 +18,7 @@
 #include <map>
 #include <utility>
 
-#include "bough/solve/monolithic.hpp"
+#include "bough/solve/reference/monolithic.hpp"
 #include "verify_scenes.hpp"
 
 namespace bough::verify {

@@ -6,7 +6,7 @@
 
 #include "bough/schedule/serial.hpp"
 #include "bough/solve/hierarchical.hpp"
-#include "bough/solve/monolithic.hpp"
+#include "bough/solve/reference/monolithic.hpp"
 #include "random_scene.hpp"
 
 namespace bough::test {

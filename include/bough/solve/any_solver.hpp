@@ -3,10 +3,10 @@
 #include <utility>
 #include <variant>
 
-#include "bough/solve/dual.hpp"
+#include "bough/solve/reference/dual.hpp"
 #include "bough/solve/hierarchical.hpp"
-#include "bough/solve/monolithic.hpp"
-#include "bough/solve/sparse_oracle.hpp"
+#include "bough/solve/reference/monolithic.hpp"
+#include "bough/solve/reference/sparse_oracle.hpp"
 
 namespace bough::solve {
 

@@ -1,4 +1,4 @@
-#include "bough/solve/sparse_oracle.hpp"
+#include "bough/solve/reference/sparse_oracle.hpp"
 
 #include <algorithm>
 #include <cmath>

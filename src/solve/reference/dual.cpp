@@ -1,4 +1,4 @@
-#include "bough/solve/dual.hpp"
+#include "bough/solve/reference/dual.hpp"
 
 #include <algorithm>
 #include <cmath>

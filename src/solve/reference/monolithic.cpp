@@ -1,4 +1,4 @@
-#include "bough/solve/monolithic.hpp"
+#include "bough/solve/reference/monolithic.hpp"
 
 #include <algorithm>
 #include <cmath>

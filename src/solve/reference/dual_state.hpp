@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "bough/solve/dual.hpp"
+#include "bough/solve/reference/dual.hpp"
 #include "leaf_fronts.hpp"
 #include "refine.hpp"
 
