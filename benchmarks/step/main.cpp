@@ -1,7 +1,7 @@
-/// bench_step [--case=REGEX] [--solver=REGEX] [--scaling=yes] [--million=yes] [--loops=yes] [options of Google Benchmark]
-/// One iteration is one accepted time step of the program, from rest. Instead of the usual cases --scaling=yes: chains
-/// of 32 to 32768 links; --million=yes: a chain and a lattice of about a million unknowns; --loops=yes: 20 to 320
-/// windows of four-bars in space, in motion.
+/// bench_step [--case=REGEX] [--solver=REGEX] [--scaling=yes] [--million=yes] [--loops=yes] [options of Google
+/// Benchmark]. One iteration is one accepted time step of the program, from rest. Instead of the usual cases
+/// --scaling=yes: chains of 32 to 32768 links; --million=yes: a chain and a lattice of about a million unknowns;
+/// --loops=yes: 20 to 320 windows of four-bars in space, in motion.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

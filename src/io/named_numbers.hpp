@@ -31,8 +31,8 @@ class NamedNumbers {
   /// Replaces all names but t, pi, e and functions by numbers in parentheses. Braces become parentheses, so that {i}
   /// means the same as in other strings. own: names that are not replaced.
   std::optional<NamedFault> put_into_formula(std::string& formula, const JsonValue* own = nullptr);
-  /// The same of a formula of a signal, whose other names are those of signals: they stay. Braces hold formulas for whole
-  /// numbers, as in other strings, so that "angle_{i}" is a name.
+  /// The same of a formula of a signal, whose other names are those of signals: they stay. Braces hold formulas for
+  /// whole numbers, as in other strings, so that "angle_{i}" is a name.
   std::optional<NamedFault> put_into_signal(std::string& formula);
   /// Replaces all formulas in braces by whole numbers (to 1e-9); {{ and }} become single braces.
   std::optional<NamedFault> put_into_text(std::string& text);

@@ -31,7 +31,8 @@ class Conservation {
   /// Compares energy and momentum with the supplied work and impulse.
   void compare(const step::State& state) { balance_.compare(energy_meter_.eval(system_, state), work_meter_.supply()); }
 
-  /// Performs the checks of a row: violations of constraints and, where work is summed in dynamics, balances. error_watch may be null.
+  /// Performs the checks of a row: violations of constraints and, where work is summed in dynamics, balances.
+  /// error_watch may be null.
   void check(const step::State& state, double step_size, records::Checks& checks, FiniteGate& gate,
              ErrorWatch* error_watch);
   /// Writes the results of the whole run to the checks. In dynamics `duration` is the end time [s].

@@ -141,8 +141,8 @@ class InverseDynamics final : public Analysis {
 
   bool knows_rank() const { return system_.linear().solver().last_status().deficiency >= 0; }
 
-  /// Number of constraint rows that depend on others. A solver that regularises singular matrices does not know it: then
-  /// the same matrix is factored in the form that does.
+  /// Number of constraint rows that depend on others. A solver that regularises singular matrices does not know it:
+  /// then the same matrix is factored in the form that does.
   int dependent_rows() {
     if (knows_rank()) return system_.linear().solver().last_status().deficiency;
     const blocks::BlockGraph& graph = plan_.graph;

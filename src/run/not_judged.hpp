@@ -7,8 +7,8 @@
 
 namespace bough::run {
 
-/// Names the sensors of a run of time steps whose discretization error in time was not estimated, with the reason and a way
-/// to find it out. Empty if there is an estimate for all. checks: whether the scene requests checks. errors: the
+/// Names the sensors of a run of time steps whose discretization error in time was not estimated, with the reason and a
+/// way to find it out. Empty if there is an estimate for all. checks: whether the scene requests checks. errors: the
 /// existing estimates.
 std::string error_not_judged(const plan::Plan& plan, const step::StepOptions& options, bool checks,
                              const std::vector<records::SensorError>& errors);

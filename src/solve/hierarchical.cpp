@@ -140,8 +140,8 @@ FactorStatus Hierarchical::State::factor_all(const tree::Walker& walker, VisitWo
   counters.delayed_pivots += status.delayed_pivots;
   if (status.ok()) decide_rank();
   if (status.ok()) find_null_space();
-  // With dependent rows the right-hand side has to be made consistent first, and candidates of null vectors are computed
-  // in the storage of the condensed one.
+  // With dependent rows the right-hand side has to be made consistent first, and candidates of null vectors are
+  // computed in the storage of the condensed one.
   is_condensed = rhs != nullptr && null_space.deficiency() == 0 && !null_space.took_vectors;
   if (is_condensed) forward_group(static_cast<int>(lanes.groups.size()) - 1);
   return status;

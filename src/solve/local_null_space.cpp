@@ -96,8 +96,8 @@ bool Hierarchical::State::add_local_vectors(tree::FrontId f, NullSide side) {
   return holds;
 }
 
-/// Vectors (unscaled) whose entry is 1 (scaled) in one of the front's remaining columns, or rows, from `first` on, and 0
-/// in the others and outside of the front's subtree: from the front down as far as they have entries.
+/// Vectors (unscaled) whose entry is 1 (scaled) in one of the front's remaining columns, or rows, from `first` on, and
+/// 0 in the others and outside of the front's subtree: from the front down as far as they have entries.
 void Hierarchical::State::spread_null_vectors(tree::FrontId top, int first, int count, NullSide side) {
   NullSpace& s = null_space;
   const std::vector<double>& scale = side == NullSide::right ? scales.column : scales.row;

@@ -266,8 +266,8 @@ void Hierarchical::State::leave_out_zeros(ElementStore::Errors& errors, SolveRep
   errors.normwise = met / errors.size;
 }
 
-/// Subtracts from the right-hand side its part in the left null space. Dependent rows that contradict each other have no
-/// solution: the nearest right-hand side that has one is solved.
+/// Subtracts from the right-hand side its part in the left null space. Dependent rows that contradict each other have
+/// no solution: the nearest right-hand side that has one is solved.
 void Hierarchical::State::make_consistent(SolveReport& report) {
   if (null_space.deficiency() == 0) return;
   const std::size_t n = at(tree.num_unknowns());

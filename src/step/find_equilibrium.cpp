@@ -36,7 +36,8 @@ class PseudoTime {
   explicit PseudoTime(double first_size) : first_(first_size), size_(first_size) {}
   double size() const { return size_; }
 
-  /// After a step that was not solved: Newton's method needs a start that is nearer. False: smaller steps are of no use.
+  /// After a step that was not solved: Newton's method needs a start that is nearer. False: smaller steps are of no
+  /// use.
   bool reject() {
     constexpr double least = 1e-9;  // of the first size
     growth_ = cautious;

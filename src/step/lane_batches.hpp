@@ -53,8 +53,8 @@ class LaneBatches {
   using Field = elements::FieldOn<G, double>;
 
   /// Starts from the batches of the solver. Elements of batches with fewer than `least_lanes` elements are regrouped
-  /// with elements of the same kind from nearby batches, in the first of these, if that belongs to the same visit of the
-  /// solver's walks or to one below it, whose work comes before. A batch is evaluated in lanes if it
+  /// with elements of the same kind from nearby batches, in the first of these, if that belongs to the same visit of
+  /// the solver's walks or to one below it, whose work comes before. A batch is evaluated in lanes if it
   /// then holds at least `least_lanes` elements that differ only in the values of their data. Joints that hold nodes at
   /// rest are omitted, since the solver does not see them.
   void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches, const solve::SolverVisits& visits,

@@ -22,7 +22,8 @@ constexpr double noise_spread = 1.5;
 /// above the tolerance.
 constexpr double roundings = 16.0;
 
-/// Largest residual, relative to the sum of the magnitudes of its terms, that meets a goal whatever the motion left out.
+/// Largest residual, relative to the sum of the magnitudes of its terms, that meets a goal whatever the motion left
+/// out.
 constexpr double least_residual = 1e-13;
 
 }  // namespace

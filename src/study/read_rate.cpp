@@ -24,8 +24,8 @@ void read(const std::vector<std::uint64_t>& part, long rounds) {
   sink.fetch_add(sum, std::memory_order_relaxed);
 }
 
-/// Seconds in which every thread reads its part `rounds` times: from the first beginning to the last end, as the threads
-/// themselves see them, since the one that waits for them may get no processor meanwhile.
+/// Seconds in which every thread reads its part `rounds` times: from the first beginning to the last end, as the
+/// threads themselves see them, since the one that waits for them may get no processor meanwhile.
 double eval_seconds(std::vector<std::vector<std::uint64_t>>& parts, long rounds) {
   const std::size_t count = parts.size();
   std::barrier gate(static_cast<std::ptrdiff_t>(count));

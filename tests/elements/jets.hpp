@@ -1,6 +1,6 @@
 #pragma once
-/// Residual and tangent of an element in a plane, or where nothing turns, from its kernel run on jets through a driver of
-/// its own. The library's closed tangents and its driver are checked against it.
+/// Residual and tangent of an element in a plane, or where nothing turns, from its kernel run on jets through a driver
+/// of its own. The library's closed tangents and its driver are checked against it.
 #include <vector>
 
 #include "bough/elements/evaluate_lanes.hpp"

@@ -264,8 +264,8 @@ TEST(DrivenParts, a_linear_formula_is_a_spring_with_a_damper) {
     EXPECT_LT(out->summary.checks.energy_balance, 2e-4 * out->summary.checks.energy_scale);
 }
 
-// Of the efforts along one hinge, the one that is a law of its angle, -8 q^3, stores 2 q^4; a law of the angle of another
-// hinge does work.
+// Of the efforts along one hinge, the one that is a law of its angle, -8 q^3, stores 2 q^4; a law of the angle of
+// another hinge does work.
 TEST(DrivenParts, an_effort_of_its_own_coordinate_alone_stores_energy) {
   const Outcome out = run_ok(scene_of(R"-({"analysis": {"kind": "dynamic", "end_time": 1, "step_size": 1e-3},
   "bodies": [{"name": "A", "mass": 1, "inertia": [1, 1, 1]}, {"name": "B", "mass": 1, "inertia": [1, 1, 1]}],

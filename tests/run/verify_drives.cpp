@@ -149,8 +149,8 @@ std::string cart(const std::string& holds, const std::string& signals) {
               {"name": "cart", "kind": "position", "at": "cart"})-";
 }
 
-// x' = 2 (theta - theta_0): (I + m L^2) theta'' + m L cos(theta) x'' + m g L sin(theta) = 0, from rest, and the force of
-// the drive is the rate of the momentum.
+// x' = 2 (theta - theta_0): (I + m L^2) theta'' + m L cos(theta) x'' + m g L sin(theta) = 0, from rest, and the force
+// of the drive is the rate of the momentum.
 TEST(Drives, a_state_of_the_motion_drives_a_cart_to_the_order_of_the_motion) {
   const double M = 3.0, m = 2.0, I = 0.1, g = 9.81;
   const double length = std::hypot(0.33589882820250137, 0.6145077933233957);
@@ -264,7 +264,8 @@ TEST(Drives, a_measured_force_controls_a_drive) {
         return std::abs(run_ok(scene_of(json, way.overrides(h))).history.last(column) - exact);
       };
     };
-    // States start to second order, accelerations that follow them to first: what a force feeds back is of second order.
+    // States start to second order, accelerations that follow them to first: what a force feeds back is of second
+    // order.
     EXPECT_NEAR(order_of(error_of("p", y[0]), 4e-3), 2.0, 0.3);
     EXPECT_NEAR(order_of(error_of("measured", y[2]), 4e-3), 2.0, 0.3);
     EXPECT_LT(error_of("force", force)(1e-3), 2e-3 * target);
@@ -352,7 +353,8 @@ TEST(Drives, a_table_of_two_signals_is_the_function_that_it_holds) {
 }
 
 // Every component that a row holds alone is that of the sensor: a body under forces and moments that change, held by a
-// joint whose first frame has the ground's axes, and another body clamped to it; with and without what the plan decides.
+// joint whose first frame has the ground's axes, and another body clamped to it; with and without what the plan
+// decides.
 TEST(Drives, a_signal_reads_what_the_sensor_of_a_reaction_measures) {
   const struct {
     const char* kind;

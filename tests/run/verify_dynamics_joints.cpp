@@ -162,7 +162,8 @@ TEST(Joints, a_point_mass_on_a_ball_joint_at_a_distance_runs_as_on_a_universal_j
 TEST(Joints, a_point_mass_on_a_rod_runs_as_on_a_universal_joint) { expect_conical_pendulum(R"("kind": "distance")"); }
 
 TEST(Joints, a_rod_that_shortens_lifts_its_load) {
-  // The rod of length L = 2 - 0.3 t^2 hangs from (0.2, 0, 1): z = 1 - L, tension m (g + 0.6), work m (g (2 - L) + v^2/2).
+  // The rod of length L = 2 - 0.3 t^2 hangs from (0.2, 0, 1): z = 1 - L, tension m (g + 0.6), work m (g (2 - L) +
+  // v^2/2).
   for (const char* without : {"[]", R"(["line", "translation"])"}) {
     const Outcome outcome = support::run(support::scene_of(R"({"gravity": [0, 0, -9.81],
       "bodies": [{"name": "load", "kind": "point_mass", "mass": 3, "position": [0.2, 0, -1]}],

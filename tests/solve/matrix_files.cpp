@@ -81,8 +81,8 @@ Eigen::VectorXd solve_with_bough(const Problem& p, solve::FactorStatus& status) 
   return x;
 }
 
-/// Three unknowns a node, elements of four nodes on a grid, two nodes tied by two rows of multipliers: what a program of
-/// mechanics would write, its unknowns shuffled.
+/// Three unknowns a node, elements of four nodes on a grid, two nodes tied by two rows of multipliers: what a program
+/// of mechanics would write, its unknowns shuffled.
 bench::SparseMatrix make_grid(int n, bool is_symmetric, std::vector<int>& order) {
   const int motions = 3 * n * n, size = motions + 2;
   std::mt19937 random(5);

@@ -8,8 +8,8 @@
 
 namespace bough::elements {
 
-/// Value of a reading. slopes: null, or room for 2 G::dof numbers: its derivatives by the increments of the nodes of both
-/// ports (Slopes), zeros for a port on the ground. turns: angle at the last accepted step [rad].
+/// Value of a reading. slopes: null, or room for 2 G::dof numbers: its derivatives by the increments of the nodes of
+/// both ports (Slopes), zeros for a port on the ground. turns: angle at the last accepted step [rad].
 template <class G>
 double eval_reading(const JointOn<G, double>& reading, const FieldOn<G, double>& field, double turns, double* slopes);
 

@@ -32,8 +32,8 @@ struct SceneFile {
   scene::Scene scene;
   std::vector<Problem> problems;  ///< in the order of the file; at most max_problems
   std::vector<Problem> warnings;  ///< legal, but probably not meant
-  /// Numbers of the items of each list as written, with copies made: a scene can hold more parts, since some are made of
-  /// others (a servo of signals, a spring with a law of a strut).
+  /// Numbers of the items of each list as written, with copies made: a scene can hold more parts, since some are made
+  /// of others (a servo of signals, a spring with a law of a strut).
   std::map<std::string, std::size_t, std::less<>> counts;
   std::string hash;  ///< digest of the text, and of the files that it names (digest.hpp)
   bool ok() const { return problems.empty(); }

@@ -1,8 +1,8 @@
 #pragma once
 /// The group of translations along N axes, R^N, for elements: the functions of group_se3.hpp for frames that never
-/// turn. Poses are positions and vectors are N numbers in the axes of the ground. The group is commutative: ad(d) = 0, so
-/// every function of ad(d), and with it every map of motions that occurs, is a multiple of the identity. Brackets and
-/// the maps to and from them are zero; they are a type without numbers, and no operation on them costs anything.
+/// turn. Poses are positions and vectors are N numbers in the axes of the ground. The group is commutative: ad(d) = 0,
+/// so every function of ad(d), and with it every map of motions that occurs, is a multiple of the identity. Brackets
+/// and the maps to and from them are zero; they are a type without numbers, and no operation on them costs anything.
 #include "bough/motion/types.hpp"
 
 namespace bough::motion {

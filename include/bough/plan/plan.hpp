@@ -140,8 +140,9 @@ enum class SignalRule : std::uint8_t {
   input,       ///< a number that is given from outside
 };
 
-/// A signal that changes with the motion: an unknown s with one equation, s = f or s' = f. Plan::signals holds them such
-/// that each comes after those of whose present values it is made. Signals that are laws of time are Plan::laws alone.
+/// A signal that changes with the motion: an unknown s with one equation, s = f or s' = f. Plan::signals holds them
+/// such that each comes after those of whose present values it is made. Signals that are laws of time are Plan::laws
+/// alone.
 struct SignalPlan {
   std::string name;
   SignalRule rule = SignalRule::formula;

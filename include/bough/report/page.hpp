@@ -27,8 +27,8 @@ RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames
 
 bool is_static(const RunFiles& run);  ///< its histories are functions of the load factor
 
-/// The run with the number of the step instead of the load factor, which becomes a sensor. Along a path load factors may
-/// turn back, so that nothing is a function of them.
+/// The run with the number of the step instead of the load factor, which becomes a sensor. Along a path load factors
+/// may turn back, so that nothing is a function of them.
 RunFiles by_step(RunFiles run);
 bool turns_back(const RunFiles& run);  ///< the load factor of some step is not above that of the step before
 

@@ -19,10 +19,11 @@ struct EquilibriumReport {
 /// keep their positions, and velocities are those of rest in the observer's frame. Each step of pseudo-time starts from
 /// rest and solves
 ///   (c / h^2) M dq + (c' / h) C dq + f(q exp(dq), multipliers) = 0
-/// (generalized-alpha with spectral radius 0), which for conservative loads decreases the potential energy; h grows from
-/// step to step, so that the steps become those of Newton's method for f = 0. Inertia keeps motions that nothing resists
-/// where they are, and an equilibrium is reached from poses that are far from it. first_size: h of the first step [s].
-/// Afterwards the nodes have the velocities that they had before, with the same components in the ground's axes.
+/// (generalized-alpha with spectral radius 0), which for conservative loads decreases the potential energy; h grows
+/// from step to step, so that the steps become those of Newton's method for f = 0. Inertia keeps motions that nothing
+/// resists where they are, and an equilibrium is reached from poses that are far from it. first_size: h of the first
+/// step [s]. Afterwards the nodes have the velocities that they had before, with the same components in the ground's
+/// axes.
 EquilibriumReport find_equilibrium(System& system, State& state, const StepOptions& options, double first_size);
 
 }  // namespace bough::step

@@ -1,7 +1,7 @@
 #pragma once
-/// Signals as unknowns (plan::SignalPlan): each has one equation, s - f = 0, or s' - f = 0 for a state, f being a reading
-/// of the motion, a law of another signal or a formula of others. The equations are solved together with those of
-/// motion, so that no signal lags behind the motion that it reads, and the tangent holds all derivatives.
+/// Signals as unknowns (plan::SignalPlan): each has one equation, s - f = 0, or s' - f = 0 for a state, f being a
+/// reading of the motion, a law of another signal or a formula of others. The equations are solved together with those
+/// of motion, so that no signal lags behind the motion that it reads, and the tangent holds all derivatives.
 #include <vector>
 
 #include "bough/lanes/taylor.hpp"

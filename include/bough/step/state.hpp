@@ -140,8 +140,8 @@ State make_initial_state(const plan::Plan& plan);
 /// R, x, v, dv/dt and dq of all nodes in space, own axes of the nodes as the scene places them:
 ///   R = R_0 exp(theta n),  x = x_0 + A (p - p_0),  v = B (linear part; angular part)
 /// theta and p - p_0 turn and displacement on the group since the start, A the axes of the model, B the same in those
-/// of the node and n the normal of a plane among them (plan::NodeStartOn). Where nothing turns, R = R_0. Made once for a
-/// state, which keeps them until it is changed.
+/// of the node and n the normal of a plane among them (plan::NodeStartOn). Where nothing turns, R = R_0. Made once for
+/// a state, which keeps them until it is changed.
 const std::vector<elements::NodeMotion>& nodes_in_space(const plan::Plan& plan, const State& state);
 /// Some of them alone, in their places of `to`, which has room for all.
 void copy_nodes_in_space(const plan::Plan& plan, const State& state, std::span<const int> nodes,

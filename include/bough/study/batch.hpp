@@ -34,8 +34,8 @@ using CaseDone = std::function<void(const CaseResult&, std::size_t which, const 
 std::vector<BatchCase> cases_in(const std::filesystem::path& folder, const std::filesystem::path& out);
 
 /// Runs all cases of a table that have no result yet, and returns the table with theirs; results do not depend on which
-/// finishes first. Worker processes run the cases, each worker one after the other, so that a case that crashes, hangs or
-/// exhausts memory harms no other: its worker is replaced. All workers end with this process, however it ends. If no
+/// finishes first. Worker processes run the cases, each worker one after the other, so that a case that crashes, hangs
+/// or exhausts memory harms no other: its worker is replaced. All workers end with this process, however it ends. If no
 /// process can be started, the case has failed. `stop` is asked between cases; once it returns true, no further case
 /// starts, and running cases are told to stop (SIGTERM). A case beyond its time limit is told to stop as well, and is
 /// killed if it does not end. A case whose worker holds more memory than its limit is killed; this is checked every
