@@ -3,8 +3,8 @@
 #include <utility>
 #include <variant>
 
-#include "bough/solve/reference/dual.hpp"
 #include "bough/solve/hierarchical.hpp"
+#include "bough/solve/reference/dual.hpp"
 #include "bough/solve/reference/monolithic.hpp"
 #include "bough/solve/reference/sparse_oracle.hpp"
 
