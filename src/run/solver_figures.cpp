@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "bough/schedule/serial.hpp"
+
 namespace bough::run {
 
 namespace {
@@ -77,7 +79,9 @@ std::vector<records::LevelFigures> make_levels(step::System& system) {
   }
   for (std::size_t l = 0; l < levels.size(); ++l) levels[l].level = static_cast<int>(l);
   if (!has_narrow_interfaces(tree)) return levels;
-  for (const solve::InterfaceReport& i : system.linear().solver().hierarchical()->interfaces(system.walker())) {
+  // The walker of the run may be timed, and this factorization is not one of its steps.
+  const tree::Walker walker = schedule::make_serial_walker();
+  for (const solve::InterfaceReport& i : system.linear().solver().hierarchical()->interfaces(walker)) {
     records::LevelFigures& level = levels[static_cast<std::size_t>(i.level)];
     level.condition = std::max(level.condition, i.condition);
   }
