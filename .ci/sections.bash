@@ -53,7 +53,8 @@ thread_sanitizer() {
     no_randomisation="setarch -R"
   fi
   sh cmake/build_tsan_tbb.sh || return 1
-  # Tests on several threads; their names say so. The others would tell this sanitizer nothing.
+  # A test that starts threads has "thread" in its full name, PROGRAM.SUITE.TEST. A race needs a second thread, so the
+  # others are left out.
   TSAN_OPTIONS="halt_on_error=1 second_deadlock_stack=1" build_and_test tsan \
     "tests_tree_unit tests_schedule_unit test_solve_threads test_solve_forms test_step_threads" \
     -L '^unit$' -R '^schedule/|[Tt]hread'

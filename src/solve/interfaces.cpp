@@ -1,5 +1,4 @@
-/// Quantities of the method: interface flexibility, its condition, local multipliers, and the textbook condensation
-/// through it.
+/// Quantities of the method: interface flexibility, its condition, and the textbook condensation through it.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>

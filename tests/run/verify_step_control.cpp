@@ -362,8 +362,7 @@ Outcome quiet_run(double size, const std::string& nominal, double tolerance) {
 // The mechanism alone would let steps grow to a fiftieth of the run, 40 ms. A step of local error tol^(3/2) has
 // h ~ tol^(1/2), so the error of the states follows the tolerance.
 // A mass on a spring alone: of the shares that limit a step, e_q / tolerance^(3/2) and e_v / tolerance, the second is
-// the larger one above the tolerance (e_q / e_v)^2, where both are equal. The frequency that is told is that of the
-// vibration, but for what its error changes within a step.
+// the larger one above the tolerance (e_q / e_v)^2, where both are equal.
 TEST(StepControl, tells_whether_places_or_velocities_limit_a_step) {
   const scene::Scene scene = support::scene_of(R"-({
   "bodies": [{"name": "mass", "mass": 2, "inertia": [1, 1, 1], "position": [1, 0, 0]}],

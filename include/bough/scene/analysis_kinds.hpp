@@ -1,6 +1,7 @@
 #pragma once
 /// The kinds of analyses as a table. What a kind is in files, checks, plan and options follows from its entry; the
-/// keys that it takes in files stand in a table of `io` (schema_analysis.cpp), and what it does in the table of analyses of `run`.
+/// keys that it takes in files stand in a table of `io` (schema_analysis.cpp), and what it does in the table of analyses
+/// of `run`.
 #include <optional>
 #include <string_view>
 #include <vector>

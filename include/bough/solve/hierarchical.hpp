@@ -93,7 +93,8 @@ class Hierarchical {
   /// singular.
   Inertia inertia();
   /// Interfaces of all sub-domains but the root, in order. Only factors are kept, so this repeats the last
-  /// factorization and looks at each Schur complement at the end of its visit; factors are the same afterwards.
+  /// factorization and looks at each Schur complement at the end of its visit. Factors are the same afterwards; a
+  /// right-hand side that was condensed is not kept.
   /// Condition numbers are computed for interfaces with at most `widest` unknowns (dense singular values, for reports;
   /// allocates) and are NaN for others. flops: of the sub-domain's own fronts; seconds are not measured. Precondition:
   /// factor() was ok, and the element matrices are still those.
