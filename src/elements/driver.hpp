@@ -99,11 +99,8 @@ class TangentWriter {
   BOUGH_INLINE void operator()(int i, int j, const Block& block) const {
     if (of_[i] < 0 || of_[j] < 0) return;
     const bool left = ports_[i].has_offset, right = ports_[j].has_offset;
-    if (!left && !right) return write(of_[i], of_[j], block);
-    Block moved = block;
-    if (right) moved = G::block_product(moved, G::inverse_adjoint_map(ports_[j].offset));
-    if (left) moved = G::transposed_product(G::inverse_adjoint_map(ports_[i].offset), moved);
-    write(of_[i], of_[j], moved);
+    if (left || right) return move_and_write(i, j, block);
+    write(of_[i], of_[j], block);
   }
   /// The gradient of a joint's row: a row of the tangent and, since forces are G^T lambda, also a column.
   BOUGH_INLINE void row(int k, int port, typename G::template Vector<S> gradient) const {
@@ -119,6 +116,13 @@ class TangentWriter {
   }
 
  private:
+  /// Out of line: inlined at every block, it made g++ 12 fail on the three-node beam for AVX-512.
+  template <class Block>
+  BOUGH_NOINLINE void move_and_write(int i, int j, Block block) const {
+    if (ports_[j].has_offset) block = G::block_product(block, G::inverse_adjoint_map(ports_[j].offset));
+    if (ports_[i].has_offset) block = G::transposed_product(G::inverse_adjoint_map(ports_[i].offset), block);
+    write(of_[i], of_[j], block);
+  }
   template <class Block>
   BOUGH_INLINE void write(int row, int column, const Block& block) const {
     for (int k = 0; k < G::dof; ++k)

@@ -10,8 +10,10 @@
 /// heuristic finds the caller too large.
 #if defined(__GNUC__)
 #define BOUGH_INLINE inline __attribute__((always_inline))
+#define BOUGH_NOINLINE __attribute__((noinline))
 #else
 #define BOUGH_INLINE inline
+#define BOUGH_NOINLINE
 #endif
 
 // Put before a short loop of fixed length over registers: the variables stay in registers only if the loop is unrolled.
