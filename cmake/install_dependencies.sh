@@ -20,8 +20,8 @@ packages_of() {
     bench)
       echo libbenchmark-dev python3 libsuitesparse-dev libmumps-seq-dev libsuperlu-dev libopenblas-pthread-dev ;;
     lint) echo clang-format-14 python3 ;;
-    asan) echo clang-14 libclang-rt-14-dev llvm-14 ;;
-    tsan) echo clang-14 libclang-rt-14-dev llvm-14 dpkg-dev util-linux ;;
+    asan) echo clang-14 lld-14 libclang-rt-14-dev llvm-14 ;;
+    tsan) echo clang-14 lld-14 libclang-rt-14-dev llvm-14 dpkg-dev util-linux ;;
     browser) echo chromium python3 ;;
     vtk) echo python3-vtk9 python3-numpy ;;
     all)

@@ -4,13 +4,12 @@
 #include <map>
 #include <utility>
 
+#include "bough/blocks/at.hpp"
 #include "matrix_file.hpp"
 
 namespace bough::bench {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 using Lists = std::vector<std::vector<int>>;
 

@@ -8,13 +8,12 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "bough/blocks/at.hpp"
 #include "cpu_time.hpp"
 
 namespace bough::bench {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// The lines of a file, counted.
 class Lines {

@@ -6,14 +6,13 @@
 
 #include <cerrno>
 #include <stdexcept>
-#include <system_error>
+
+#include "error_text.hpp"
 
 namespace bough::io {
 namespace {
 
 constexpr std::size_t flush_at = std::size_t{1} << 16;
-
-std::string reason(int error) { return std::error_code(error, std::generic_category()).message(); }
 
 /// Writes all bytes; returns 0 or the error.
 int write_all(int descriptor, std::string_view bytes) {
@@ -41,7 +40,7 @@ void sync_path(const std::filesystem::path& path, int flags) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
   const int error = descriptor < 0 ? errno : sync_descriptor(descriptor);
   if (descriptor >= 0) ::close(descriptor);
-  if (error != 0) throw std::runtime_error("cannot make " + path.string() + " durable: " + reason(error));
+  if (error != 0) throw std::runtime_error("cannot make " + path.string() + " durable: " + error_text(error));
 }
 
 /// Opens a file for writing, never with the descriptor of a standard stream: if the process was started with one of
@@ -100,7 +99,7 @@ void AtomicFile::give_up() {
 }
 
 void AtomicFile::fail(int error) const {
-  throw std::runtime_error("cannot write " + final_path_.string() + ": " + reason(error));
+  throw std::runtime_error("cannot write " + final_path_.string() + ": " + error_text(error));
 }
 
 void AtomicFile::write(std::string_view bytes) {

@@ -110,12 +110,6 @@ void put_difference(std::string& bytes, const double* now, const double* start) 
   put<float>(bytes, d, 3);
 }
 
-Mat3 matrix_of(const double* axes) {
-  Mat3 R;
-  std::copy_n(axes, 9, R.m);
-  return R;
-}
-
 void put_turn(std::string& bytes, const double* now, const double* start) {
   const Vec3 r = motion::log_so3(matrix_of(now) * lanes::transpose(matrix_of(start)));
   put<float>(bytes, r.v, 3);

@@ -7,8 +7,6 @@ namespace bough::io {
 namespace {
 
 using motion::MotionKind;
-using motion::Vec3;
-using motion::Vec6;
 
 constexpr int digits = 9;
 

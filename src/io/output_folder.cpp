@@ -8,11 +8,11 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <system_error>
 #include <thread>
 
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/digest.hpp"
+#include "error_text.hpp"
 
 namespace bough::io {
 namespace {
@@ -22,10 +22,8 @@ namespace fs = std::filesystem;
 constexpr const char* inner_name = ".bough-new";  // of a staging folder within the final one
 constexpr const char* former_name = ".former";  // within a staging folder: entries that were moved out of the final one
 
-std::string reason(int error) { return std::error_code(error, std::generic_category()).message(); }
-
 [[noreturn]] void fail(const fs::path& folder, int error) {
-  throw std::runtime_error("cannot write into " + folder.string() + ": " + reason(error));
+  throw std::runtime_error("cannot write into " + folder.string() + ": " + error_text(error));
 }
 
 /// The folder to which the user's name leads. If it does not exist, the name within its existing parent.

@@ -13,7 +13,7 @@
 namespace bough::io {
 namespace {
 
-RuleTable make_table() {
+RuleTable make_frame_rules() {
   RuleTable t;
   add_part_rules(t);
   add_law_rules(t);
@@ -47,7 +47,7 @@ RuleTable make_table() {
 }
 
 const RuleTable& frame_rules() {
-  static const RuleTable table = make_table();
+  static const RuleTable table = make_frame_rules();
   return table;
 }
 

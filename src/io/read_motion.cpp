@@ -12,7 +12,7 @@ namespace {
 
 constexpr double largest_length = 1e100;  ///< [m]; products of two still fit a double
 
-RuleTable make_table() {
+RuleTable make_motion_rules() {
   RuleTable t;
   add_part_rules(t);
   t.named["pose"] = made(object_of("A pose in the inertial frame.",
@@ -33,7 +33,7 @@ RuleTable make_table() {
 }
 
 const RuleTable& motion_rules() {
-  static const RuleTable table = make_table();
+  static const RuleTable table = make_motion_rules();
   return table;
 }
 

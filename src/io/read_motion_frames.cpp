@@ -16,12 +16,6 @@ namespace {
 using Mat3 = motion::Mat3<double>;
 using Vec3 = motion::Vec3<double>;
 
-Mat3 matrix_of(const double* axes) {
-  Mat3 R;
-  std::copy_n(axes, 9, R.m);
-  return R;
-}
-
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
   throw std::runtime_error(path.string() + ": " + what);
 }

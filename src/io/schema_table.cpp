@@ -368,7 +368,7 @@ void add_settings(RuleTable& t) {
        may("source", text_rule(""), "Where the figure comes from.", "\"\"")}));
 }
 
-RuleTable make_table() {
+RuleTable make_scene_rules() {
   RuleTable t;
   add_part_rules(t);
   add_law_rules(t);
@@ -443,7 +443,7 @@ RuleTable make_table() {
 }  // namespace
 
 const RuleTable& scene_rules() {
-  static const RuleTable& table = *new RuleTable(make_table());  // never destroyed, since that takes long
+  static const RuleTable& table = *new RuleTable(make_scene_rules());  // never destroyed, since that takes long
   return table;
 }
 

@@ -87,7 +87,7 @@ void add_grid(RuleTable& t) {
        may("reference", named_rule("study_reference"), "Of this grid, for all quantities.")}));
 }
 
-RuleTable make_table() {
+RuleTable make_study_rules() {
   RuleTable t;
   t.named = scene_rules().named;
   const RuleRef any = number_rule("");
@@ -126,7 +126,7 @@ RuleTable make_table() {
 }  // namespace
 
 const RuleTable& study_rules() {
-  static const RuleTable table = make_table();
+  static const RuleTable table = make_study_rules();
   return table;
 }
 

@@ -89,7 +89,7 @@ void add_designs(RuleTable& t) {
            {variables_field("random_variable", "What varies."), samples(most / 3.0), seed}))});
 }
 
-RuleTable make_table() {
+RuleTable make_sweep_rules() {
   RuleTable t;
   t.named = scene_rules().named;
   t.named["setting_value"] =
@@ -122,7 +122,7 @@ RuleTable make_table() {
 }  // namespace
 
 const RuleTable& sweep_rules() {
-  static const RuleTable table = make_table();
+  static const RuleTable table = make_sweep_rules();
   return table;
 }
 

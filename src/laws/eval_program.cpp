@@ -11,8 +11,6 @@ namespace bough::laws {
 
 namespace {
 
-int sign_of(double x) { return x > 0.0 ? 1 : (x < 0.0 ? -1 : 0); }
-
 /// Sign of a quantity just after (direction 1) or just before (-1) the time of its jet: the first term that is not
 /// zero.
 int sign_beside(const Jet<double>& x, int direction) {

@@ -8,6 +8,8 @@
 
 namespace bough::laws {
 
+inline int sign_of(double x) { return x > 0.0 ? 1 : (x < 0.0 ? -1 : 0); }
+
 /// In the search for changes of branch, times nearer to zero than this [s] count as zero: products of smaller ones
 /// underflow and lose their sign.
 inline constexpr double tiny_time = 1e-300;

@@ -19,8 +19,6 @@ namespace bough::laws {
 
 namespace {
 
-int sign_of(double x) { return x > 0.0 ? 1 : (x < 0.0 ? -1 : 0); }
-
 /// Finds the times at which one switch of a formula changes branch: the roots of its argument g.
 ///   0 not in g([a, b])                     no root: drop
 ///   0 not in g'([a, b])                    g monotone, at most one root: bisect g

@@ -3,11 +3,11 @@
 #include <limits>
 #include <numbers>
 
+#include "norm.hpp"
+
 namespace bough::motion {
 
 namespace {
-
-double norm(const Vec3<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
 /// Half-angle rotation G with R = G G.
 Mat3<double> half_rotation(const IntrinsicMotion& m) { return exp_so3((0.5 * m.phi) * m.n); }

@@ -1,12 +1,8 @@
 #include "bough/motion/plucker.hpp"
 
+#include "norm.hpp"
+
 namespace bough::motion {
-
-namespace {
-
-double norm(const Vec3<double>& a) { return std::hypot(a[0], a[1], a[2]); }
-
-}  // namespace
 
 std::optional<Vec6<double>> line_along(const Vec3<double>& point, const Vec3<double>& direction) {
   const double length = norm(direction);

@@ -1,12 +1,8 @@
 #include "bough/motion/screw.hpp"
 
+#include "norm.hpp"
+
 namespace bough::motion {
-
-namespace {
-
-double norm(const Vec3<double>& a) { return std::hypot(a[0], a[1], a[2]); }
-
-}  // namespace
 
 Screw screw_of(const Vec6<double>& S) {
   const Vec3<double> m = linear_part(S), l = angular_part(S);

@@ -4,6 +4,7 @@
 
 #include "bough/scene/frames.hpp"
 #include "bough/scene/poses.hpp"
+#include "geometry.hpp"
 #include "plan_builder.hpp"
 
 namespace bough::plan {
@@ -76,13 +77,6 @@ CarrierMotion motion_of(const Course& c) {
     m.twist_second[i] = 2.0 * c.twist[i].c[2];
   }
   return m;
-}
-
-bool is_identity(const Frame<double>& H) {
-  const Frame<double> one = Frame<double>::identity();
-  for (int i = 0; i < 9; ++i)
-    if (H.R.m[i] != one.R.m[i]) return false;
-  return H.x[0] == 0.0 && H.x[1] == 0.0 && H.x[2] == 0.0;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "bough/elements/rows.hpp"
 #include "bough/plan/small_inverse.hpp"
+#include "geometry.hpp"
 #include "plan_builder.hpp"
 #include "sets.hpp"
 
@@ -15,7 +16,6 @@ using motion::Vec6;
 
 namespace {
 
-constexpr double closed = 1e-13;      ///< relative gap of a joint, as large as a consistent start leaves it
 constexpr double least_pivot = 1e-6;  ///< relative to the largest, with rows of size 1: below this, the rows hardly
                                       ///< determine the node
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "listed.hpp"
 #include "plan_builder.hpp"
 #include "sets.hpp"
 
@@ -16,14 +17,6 @@ bool is_rigid(const elements::Joint& e) {
   int held = 0;
   for (int k = 0; k < e.num_rows; ++k) held += e.rows[k].law < 0 && e.rows[k].kind != elements::RowKind::screw ? 1 : 0;
   return held == 6;
-}
-
-/// "'a', 'b', 'c' and 4 more"
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 3;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) text += (i > 0 ? ", '" : "'") + names[i] + "'";
-  return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "bough/scene/joint_kinds.hpp"
+#include "geometry.hpp"
 
 namespace bough::plan {
 
@@ -16,8 +17,6 @@ using Mat3 = motion::Mat3<double>;
 namespace {
 
 Vec3d axis_of(const Frame& H, int k) { return {{H.R(0, k), H.R(1, k), H.R(2, k)}}; }
-
-double length_of(const Vec3d& v) { return std::sqrt(lanes::dot(v, v)); }
 
 /// Center and size of the box around all nodes and bodies and the places of all joints.
 Linkage empty_linkage(const scene::Scene& scene, const scene::Poses& poses) {

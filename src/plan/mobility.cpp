@@ -9,7 +9,9 @@
 
 #include "bough/plan/undriven.hpp"
 #include "bough/scene/analysis_kinds.hpp"
+#include "geometry.hpp"
 #include "linkage_of.hpp"
+#include "listed.hpp"
 #include "plan_builder.hpp"
 
 namespace bough::plan {
@@ -21,17 +23,6 @@ constexpr std::size_t told = 4;         ///< largest number of notes of one kind
 constexpr std::size_t most_tried = 40;  ///< largest number of joints that are tried as the cause of a locked mechanism
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-double length_of(const Vec3d& v) { return std::sqrt(lanes::dot(v, v)); }
-
-/// "'a'", "'a' and 'b'", "'a', 'b', 'c' and 4 more"
-std::string listed(const std::vector<std::string>& names) {
-  const std::size_t shown = names.size() <= 4 ? names.size() : 3;
-  std::string text;
-  for (std::size_t i = 0; i < shown; ++i)
-    text += (i == 0 ? "'" : i + 1 == names.size() ? " and '" : ", '") + names[i] + "'";
-  return shown < names.size() ? text + " and " + std::to_string(names.size() - shown) + " more" : text;
-}
 
 std::string vector_text(const Vec3d& v, double round_off) {
   std::string text = "(";

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry.hpp"
 #include "plan_builder.hpp"
 
 namespace bough::plan {
@@ -21,7 +22,6 @@ using Obstacle = std::optional<std::string>;  ///< reason against a set of motio
 
 constexpr double small = 1e-12;  ///< relative difference that computed directions and positions may have by round-off
 
-double length_of(const Vec3<double>& v) { return std::sqrt(lanes::dot(v, v)); }
 Vec3<double> linear(const Vec6<double>& v) { return lanes::linear_part(v); }
 Vec3<double> angular(const Vec6<double>& v) { return lanes::angular_part(v); }
 

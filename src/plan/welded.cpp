@@ -6,6 +6,7 @@
 #include <set>
 
 #include "bough/scene/signals.hpp"
+#include "geometry.hpp"
 #include "plan_builder.hpp"
 #include "sets.hpp"
 
@@ -20,13 +21,10 @@ using motion::Vec6;
 
 namespace {
 
-constexpr double closed = 1e-13;  ///< relative gaps and velocities within a rigid part, as for held nodes
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 
 /// Used before elements are numbered, when joints of the plan and of the array correspond one to one.
 const elements::Joint& joint_at(const Plan& plan, std::size_t j) { return array_of<elements::Joint>(plan.elements)[j]; }
-
-double length_of(const Vec3<double>& v) { return std::sqrt(lanes::dot(v, v)); }
 
 /// An offset in which round-off of the places it was computed from, of size `reach`, is set to zero. Elements at
 /// coincident nodes of a part then need no offset, and equal parts stay equal, so that they can share lanes.
@@ -35,11 +33,6 @@ Frame<double> cleared(Frame<double> H, double reach) {
   if (length_of(motion::log_so3(H.R)) <= turns) H.R = Mat3<double>::identity();
   if (length_of(H.x) <= places * reach) H.x = Vec3<double>::zero();
   return H;
-}
-
-bool is_identity(const Frame<double>& H) {
-  const Mat3<double> one = Mat3<double>::identity();
-  return lanes::dot(H.x, H.x) == 0.0 && std::equal(H.R.m, H.R.m + 9, one.m);
 }
 
 /// Mass matrix M transformed to another frame, in which the body's own frame has the pose H: v_body = Ad(H)^-1 v.

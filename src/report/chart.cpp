@@ -285,7 +285,7 @@ std::string slopes_text(const Chart& chart, const ChartFrame& f) {
     if (!guides[k] || label.empty()) continue;
     const double width = character * static_cast<double>(label.size());
     const LabelPlace at = place_label(*guides[k], width, drawn, {f.left + 3.0, f.top, f.right, f.bottom - 1.0});
-    const Box box = box_of(at, width);
+    const Rectangle box = rectangle_of(at, width);
     drawn.push_back({box.left, box.top, box.right, box.bottom});
     drawn.push_back({box.left, box.bottom, box.right, box.top});
     text += text_element("tiny soft", at.x, at.y, at.is_end ? "end" : "start", label);

@@ -7,19 +7,19 @@
 namespace bough::report {
 namespace {
 
-constexpr double letters = 10.0, descent = 3.0;  // of 12 px letters above and below their base line
-constexpr double gap = 5.0;                      // between the line and the nearest corner of the label
-constexpr int num_places = 80;                   // along the line
+constexpr double letter_height = 10.0, descent = 3.0;  // of letters of 12 px, above and below their base line
+constexpr double gap = 5.0;                            // between the line and the nearest corner of the label
+constexpr int num_places = 80;                         // along the line
 
 }  // namespace
 
-Box box_of(const LabelPlace& place, double width) {
+Rectangle rectangle_of(const LabelPlace& place, double width) {
   const double left = place.is_end ? place.x - width : place.x;
-  return {left, place.y - letters, left + width, place.y + descent};
+  return {left, place.y - letter_height, left + width, place.y + descent};
 }
 
 /// Clipping by Liang and Barsky.
-bool meets(const Segment& s, const Box& box) {
+bool meets(const Segment& s, const Rectangle& box) {
   const double dx = s.x1 - s.x0, dy = s.y1 - s.y0;
   double enters = 0.0, leaves = 1.0;
   const auto clip = [&](double speed, double room) {
@@ -35,7 +35,7 @@ bool meets(const Segment& s, const Box& box) {
          clip(dy, box.bottom - s.y0);
 }
 
-LabelPlace place_label(const Segment& line, double width, const std::vector<Segment>& drawn, const Box& area) {
+LabelPlace place_label(const Segment& line, double width, const std::vector<Segment>& drawn, const Rectangle& area) {
   const bool rises = (line.x1 - line.x0) * (line.y1 - line.y0) <= 0.0;
   LabelPlace best{};
   std::ptrdiff_t least = -1;
@@ -46,8 +46,8 @@ LabelPlace place_label(const Segment& line, double width, const std::vector<Segm
       // Below a rising line there is room to its right, above it to its left; a corner of the label is next to the
       // line.
       const bool is_end = is_below != rises;
-      const LabelPlace place{is_end ? x - gap : x + gap, is_below ? y + letters : y - descent, is_end};
-      const Box box = box_of(place, width);
+      const LabelPlace place{is_end ? x - gap : x + gap, is_below ? y + letter_height : y - descent, is_end};
+      const Rectangle box = rectangle_of(place, width);
       if (box.left < area.left || box.right > area.right || box.top < area.top || box.bottom > area.bottom) continue;
       const std::ptrdiff_t met =
           std::count_if(drawn.begin(), drawn.end(), [&](const Segment& s) { return meets(s, box); });

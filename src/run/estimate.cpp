@@ -16,12 +16,12 @@ namespace {
 // take 0.45 to 0.6 of these.
 constexpr double program = 15e6, of_node = 10e3, of_inner_node = 5e3, of_element = 7.5e3, of_joint = 28e3,
                  of_spring = 6e3, of_loop = 700.0;
-constexpr double least_part = 0.4;     ///< memory of motion on a line, relative to motion in space
+constexpr double line_part = 0.4;      ///< memory of motion on a line, relative to motion in space
 constexpr double planar_part = 0.6;    ///< the same for motion in a plane
 constexpr double of_unknown = 0.2e-6;  ///< time per step and unknown [s], as `bough plan` gives for a chain
 
 double part_of(plan::Motions motions) {
-  return motions == plan::Motions::spatial ? 1.0 : motions == plan::Motions::line ? least_part : planar_part;
+  return motions == plan::Motions::spatial ? 1.0 : motions == plan::Motions::line ? line_part : planar_part;
 }
 
 std::string rounded(double x) {
@@ -68,7 +68,7 @@ std::string refusal(const scene::Scene& scene, double limit) {
   const Estimate e = estimate_run(scene);
   double bytes = e.memory_bytes;
   if (bytes <= limit) return "";
-  if (least_part * bytes <= limit) {
+  if (line_part * bytes <= limit) {
     bytes *= part_of(plan::make_plan(scene).unknowns.motions);
     if (bytes <= limit) return "";
   }

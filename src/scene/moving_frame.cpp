@@ -2,8 +2,6 @@
 
 namespace bough::scene {
 
-using motion::Vec3;
-
 motion::FrameMotion motion_at(const MovingFrame& frame, double t, laws::Side side) {
   motion::FrameMotion m;
   for (int k = 0; k < 3; ++k) {
@@ -15,7 +13,7 @@ motion::FrameMotion motion_at(const MovingFrame& frame, double t, laws::Side sid
   m.pose.R = frame.rotation;
   for (const Turn& turn : frame.turns) {
     const laws::LawValue angle = turn.angle.at(t, side);
-    const Vec3<double> axis = m.pose.R * turn.axis, u = angle.rate * axis;
+    const motion::Vec3<double> axis = m.pose.R * turn.axis, u = angle.rate * axis;
     m.angular_acceleration += angle.acceleration * axis + cross(m.angular_velocity, u);
     m.angular_velocity += u;
     m.pose.R = m.pose.R * motion::exp_so3(angle.value * turn.axis);

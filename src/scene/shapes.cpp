@@ -115,31 +115,31 @@ Mat3 axial_inertia(int axis, double along, double across) {
   return r;
 }
 
-Mat3 inertia(const Box& s, double m) {
+Mat3 inertia_by_axes(const Box& s, double m) {
   const Vec3 a = s.size;
   return diagonal(m * (a[1] * a[1] + a[2] * a[2]) / 12.0, m * (a[2] * a[2] + a[0] * a[0]) / 12.0,
                   m * (a[0] * a[0] + a[1] * a[1]) / 12.0);
 }
-Mat3 inertia(const Cylinder& s, double m) {
+Mat3 inertia_by_axes(const Cylinder& s, double m) {
   return axial_inertia(s.axis, 0.5 * m * s.radius * s.radius,
                        m * (3.0 * s.radius * s.radius + s.length * s.length) / 12.0);
 }
-Mat3 inertia(const Sphere& s, double m) {
+Mat3 inertia_by_axes(const Sphere& s, double m) {
   const double j = 0.4 * m * s.radius * s.radius;
   return diagonal(j, j, j);
 }
-Mat3 inertia(const Ring& s, double m) {
+Mat3 inertia_by_axes(const Ring& s, double m) {
   const double squares = s.outer_radius * s.outer_radius + s.inner_radius * s.inner_radius;
   return axial_inertia(s.axis, 0.5 * m * squares, m * (3.0 * squares + s.length * s.length) / 12.0);
 }
 /// A cylinder and two half spheres, whose centres of mass lie 3/8 of the radius beyond its ends.
-Mat3 inertia(const Capsule& s, double m) {
+Mat3 inertia_by_axes(const Capsule& s, double m) {
   const double r = s.radius, L = s.length, ends = m * 4.0 * r / (3.0 * L + 4.0 * r), middle = m - ends;
   const double across = middle * (3.0 * r * r + L * L) / 12.0 + ends * (0.4 * r * r + 0.25 * L * L + 0.375 * L * r);
   return axial_inertia(s.axis, 0.5 * middle * r * r + 0.4 * ends * r * r, across);
 }
 /// Discs along the axis, r from R to q: I_axial = 3/10 m (R^5 - q^5) / (R^3 - q^3), written without the difference.
-Mat3 inertia(const Cone& s, double m) {
+Mat3 inertia_by_axes(const Cone& s, double m) {
   const double R = s.radius, q = s.end_radius, h = center_height(s), L = s.length;
   const double cubes = R * R + R * q + q * q,
                fifths = R * R * R * R + R * R * R * q + R * R * q * q + R * q * q * q + q * q * q * q;
@@ -148,7 +148,7 @@ Mat3 inertia(const Cone& s, double m) {
   const double squares = m * L * L * (R * R + 3.0 * R * q + 6.0 * q * q) / (10.0 * cubes);
   return axial_inertia(s.axis, along, 0.5 * along + squares - m * h * h);
 }
-Mat3 inertia(const Extrusion& s, double m) {
+Mat3 inertia_by_axes(const Extrusion& s, double m) {
   const PolygonMoments p = moments_of(centered(s.outline));
   const double c2 = m * p.square_2 / p.area, c3 = m * p.square_3 / p.area, c23 = m * p.product / p.area;
   const double l = m * s.length * s.length / 12.0;
@@ -160,7 +160,7 @@ Mat3 inertia(const Extrusion& s, double m) {
   J(b, c) = J(c, b) = -c23;
   return J;
 }
-Mat3 inertia(const Rod& s, double m) { return axial_inertia(s.axis, 0.0, m * s.length * s.length / 12.0); }
+Mat3 inertia_by_axes(const Rod& s, double m) { return axial_inertia(s.axis, 0.0, m * s.length * s.length / 12.0); }
 
 double volume(const Box& s) { return s.size[0] * s.size[1] * s.size[2]; }
 double volume(const Cylinder& s) { return pi * s.radius * s.radius * s.length; }
@@ -242,7 +242,7 @@ double volume_of(const BodyShape& shape) {
 }
 
 Mat3 inertia_of(const BodyShape& shape, double mass) {
-  return std::visit([mass](const auto& s) { return inertia(s, mass); }, shape);
+  return std::visit([mass](const auto& s) { return inertia_by_axes(s, mass); }, shape);
 }
 
 }  // namespace bough::scene

@@ -20,15 +20,16 @@ using tiles::store_some;
 using tiles::take_product;
 using tiles::width;
 
-constexpr int block = 8;  ///< largest number of columns processed together: a vector is read once, and loads overlap
+constexpr int columns_at_once =
+    8;  ///< largest number of columns processed together: a vector is read once, and loads overlap
 
-/// Calls f with C = count as a constant, 1 <= count <= block.
+/// Calls f with C = count as a constant, 1 <= count <= columns_at_once.
 template <class F>
 void with_count(int count, F&& f) {
   const auto pick = [&]<int... C>(std::integer_sequence<int, C...>) {
     static_cast<void>(((C + 1 == count ? (f(std::integral_constant<int, C + 1>{}), true) : false) || ...));
   };
-  pick(std::make_integer_sequence<int, block>{});
+  pick(std::make_integer_sequence<int, columns_at_once>{});
 }
 
 /// f[0, n) -= C columns of a times y.
@@ -55,8 +56,8 @@ void take_columns(int n, const double* a, std::ptrdiff_t lda, const double* y, d
 
 /// f[0, n) -= a y, k columns.
 void take_product_with(int n, int k, const double* a, std::ptrdiff_t lda, const double* y, double* f) {
-  for (int j = 0; j < k; j += block)
-    with_count(std::min(block, k - j),
+  for (int j = 0; j < k; j += columns_at_once)
+    with_count(std::min(columns_at_once, k - j),
                [&](auto count) { take_columns<decltype(count)::value>(n, a + j * lda, lda, y + j, f); });
 }
 
@@ -129,7 +130,7 @@ void solve_upper(const double* u, std::ptrdiff_t lda, double* x) {
 /// x[0, k) = L11^-T (x - L21^T x_B), L unit lower, its n rows in the first k columns of a.
 void substitute_transposed(int n, int k, const double* a, std::ptrdiff_t lda, double* x) {
   for (int end = k; end > 0;) {
-    const int count = (end - 1) % block + 1, begin = end - count;
+    const int count = (end - 1) % columns_at_once + 1, begin = end - count;
     const double* const first = a + begin * lda;
     with_count(count, [&](auto columns) {
       constexpr int C = decltype(columns)::value;
@@ -145,8 +146,8 @@ void substitute_transposed(int n, int k, const double* a, std::ptrdiff_t lda, do
 
 void substitute_forward(const FrontMatrix& front, int pivots, double* f) {
   const FrontParts v(front);
-  for (int k = 0; k < pivots; k += block) {
-    const int end = std::min(k + block, pivots);
+  for (int k = 0; k < pivots; k += columns_at_once) {
+    const int end = std::min(k + columns_at_once, pivots);
     const double* l = v.a + k * v.lda;
     with_count(end - k, [&](auto count) {
       constexpr int C = decltype(count)::value;
@@ -178,7 +179,7 @@ void substitute_backward(const FrontMatrix& front, int pivots, double* x) {
   take_product_with(pivots, v.full - pivots, v.a + pivots * v.lda, v.lda, x + pivots, x);
   int k = pivots;
   while (k > 0) {
-    const int begin = std::max(0, k - block);
+    const int begin = std::max(0, k - columns_at_once);
     const double* u = v.a + begin * v.lda;
     with_count(k - begin, [&](auto count) {
       constexpr int C = decltype(count)::value;

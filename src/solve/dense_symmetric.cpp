@@ -83,7 +83,7 @@ void eliminate_two(const FrontParts& v, double* d, int k, int end) {
 }
 
 /// Eliminates pivots within columns [k, end), and updates only these. Returns the new k; -1 if an entry is not finite.
-int eliminate_panel(const FrontParts& v, FrontMatrix& f, const PivotRule& rule, int k, int end) {
+int eliminate_symmetric_panel(const FrontParts& v, FrontMatrix& f, const PivotRule& rule, int k, int end) {
   int open = end;  // columns [open, end) were rejected in this round
   bool progress = false;
   for (;;) {
@@ -165,7 +165,7 @@ int eliminate_symmetric(FrontMatrix& f, const PivotRule& rule, const tree::Walke
     const int begin = k, end = end_of_panel(tried, f.full, outer_panel);
     while (tried < end) {
       const int inner_begin = k, inner_end = end_of_panel(tried, end, inner_panel);
-      k = eliminate_panel(v, f, rule, k, inner_end);
+      k = eliminate_symmetric_panel(v, f, rule, k, inner_end);
       if (k < 0) return -1;
       for (int j = inner_end; k > inner_begin && j < end; j += tiles::chunk)
         catch_up_symmetric(v, f.d, inner_begin, k, j, std::min(end, j + tiles::chunk));

@@ -7,17 +7,13 @@
 
 namespace bough::solve {
 
-namespace {
-constexpr int wide = lanes_wide;
-}  // namespace
-
 /// Lanes with delayed unknowns, or with a failure below, which can be processed only on the scalar path.
 LaneSet Hierarchical::State::lanes_to_leave(const LaneFront& f) const {
   unsigned leave = 0;
   for (int c = f.child_begin; c < f.child_end; ++c) {
     const LaneChild& child = lanes.children[at(c)];
     if (scalar_lanes[at(child.front)] == 0) continue;
-    for (int l = 0; l < wide; ++l) {
+    for (int l = 0; l < lanes_wide; ++l) {
       const int lane = child.from[at(l)];
       if (lane < 0 || (scalar_lanes[at(child.front)] >> lane & 1) == 0) continue;
       const FrontData& d = data(lanes.fronts[at(child.front)].front[at(lane)]);
@@ -40,7 +36,7 @@ void Hierarchical::State::factor_lane_alone(int index, int lane) {
   for_boundary(id, [&](int j, std::size_t column) {
     for_boundary(id, [&](int i, std::size_t row) {
       if (d.is_symmetric() && i < j) return;
-      schur[(static_cast<std::int64_t>(j) * f.boundary + i) * wide + lane] =
+      schur[(static_cast<std::int64_t>(j) * f.boundary + i) * lanes_wide + lane] =
           d.s[static_cast<std::int64_t>(j) * d.lds + i] / (scales.row[row] * scales.column[column]);
     });
   });
@@ -63,7 +59,7 @@ void Hierarchical::State::add_lane_child(tree::FrontId child, FrontData& parent)
       const bool is_mirrored = f.is_symmetric && i < j;  // the root, when its rank is determined
       const std::int64_t entry =
           is_mirrored ? static_cast<std::int64_t>(i) * f.boundary + j : static_cast<std::int64_t>(j) * f.boundary + i;
-      (k < parent.full ? top : bottom)[k] += scales.row[row] * schur[entry * wide + lane] * scales.column[column];
+      (k < parent.full ? top : bottom)[k] += scales.row[row] * schur[entry * lanes_wide + lane] * scales.column[column];
     });
   });
 }
@@ -71,11 +67,11 @@ void Hierarchical::State::add_lane_child(tree::FrontId child, FrontData& parent)
 /// Adds the condensed right-hand side of a lane to a front on the scalar path, scaled.
 void Hierarchical::State::add_lane_vector(tree::FrontId child, double* gathered, const FrontData& parent) {
   const LaneFront& f = lanes.fronts[at(lanes.lane_front[at(child)])];
-  const double* g = vector_of(f) + f.eliminated * wide + lanes.lane[at(child)];
+  const double* g = vector_of(f) + f.eliminated * lanes_wide + lanes.lane[at(child)];
   std::int64_t r = run_begin[at(child)];
   for_boundary(child, [&](int i, std::size_t u) {
     while (i >= runs[at(r)].from + runs[at(r)].length) ++r;
-    gathered[parent.delayed_in + runs[at(r)].to + i - runs[at(r)].from] += scales.row[u] * g[i * wide];
+    gathered[parent.delayed_in + runs[at(r)].to + i - runs[at(r)].from] += scales.row[u] * g[i * lanes_wide];
   });
 }
 
@@ -84,11 +80,11 @@ void Hierarchical::State::fill_lane_vector(tree::FrontId id, bool with_own) {
   const LaneFront& f = lanes.fronts[at(lanes.lane_front[at(id)])];
   const int lane = lanes.lane[at(id)];
   double* v = vector_of(f);
-  for_boundary(id, [&](int i, std::size_t u) { v[(f.eliminated + i) * wide + lane] = x[u]; });
+  for_boundary(id, [&](int i, std::size_t u) { v[(f.eliminated + i) * lanes_wide + lane] = x[u]; });
   if (!with_own) return;
   for (int k = 0; k < f.eliminated; ++k) {
-    const int u = lanes.unknowns[at(f.unknown + k * wide + lane)];
-    if (u >= 0) v[k * wide + lane] = x[at(u)];
+    const int u = lanes.unknowns[at(f.unknown + k * lanes_wide + lane)];
+    if (u >= 0) v[k * lanes_wide + lane] = x[at(u)];
   }
 }
 

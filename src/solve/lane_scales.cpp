@@ -6,25 +6,23 @@ namespace bough::solve {
 
 namespace {
 
-constexpr int wide = lanes_wide;
-
 /// Size of its row and inverse column scales.
-std::int64_t size_of(const LaneFront& f) { return static_cast<std::int64_t>(f.size() + f.eliminated) * wide; }
+std::int64_t size_of(const LaneFront& f) { return static_cast<std::int64_t>(f.size() + f.eliminated) * lanes_wide; }
 
 /// Row scales, then inverse column scales of one front.
 void fill(const LaneFront& f, const LanePlan& lanes, const tree::Tree& tree, const Scales& scales, double* row) {
-  double* column = row + f.size() * wide;
-  for (int k = 0; k < f.eliminated * wide; ++k) {
+  double* column = row + f.size() * lanes_wide;
+  for (int k = 0; k < f.eliminated * lanes_wide; ++k) {
     const int u = lanes.unknowns[at(f.unknown + k)];
     if (u < 0) continue;
     row[k] = scales.row[at(u)];
     column[k] = 1.0 / scales.column[at(u)];
   }
-  for (int l = 0; l < wide; ++l) {
+  for (int l = 0; l < lanes_wide; ++l) {
     if (f.front[at(l)] == tree::none) continue;
-    double* to = row + f.eliminated * wide + l;
+    double* to = row + f.eliminated * lanes_wide + l;
     for (const int b : tree.boundary_blocks(tree.fronts[at(f.front[at(l)])]))
-      for (auto u = tree.unknown_begin[at(b)]; u < tree.unknown_begin[at(b) + 1]; ++u, to += wide)
+      for (auto u = tree.unknown_begin[at(b)]; u < tree.unknown_begin[at(b) + 1]; ++u, to += lanes_wide)
         *to = scales.row[at(u)];
   }
 }

@@ -8,10 +8,6 @@
 
 namespace bough::solve {
 
-namespace {
-constexpr int wide = lanes_wide;
-}  // namespace
-
 void Hierarchical::State::factor_group(int index, const VisitWork& before) {
   const LaneGroup& group = lanes.groups[at(index)];
   if (before) before(index);
@@ -32,7 +28,7 @@ void Hierarchical::State::factor_group(int index, const VisitWork& before) {
 void Hierarchical::State::factor_lanes(int index) {
   const LaneGroup& group = lanes.groups[at(index)];
   constexpr std::int64_t room = 1 << 11;  // packs
-  alignas(64) double aside[2][room * wide];
+  alignas(64) double aside[2][room * lanes_wide];
   Transfers transfers;
   for (int k = group.front_begin; k < group.front_end; ++k) {
     const LaneFront& f = lanes.fronts[at(k)];
@@ -55,7 +51,7 @@ void Hierarchical::State::fetch_front(int index, Transfers& transfers) const {
       const LaneMove& move = lanes.moves[at(i)];
       for (int row = 0; move.child < 0 && row < move.rows; ++row)
         transfers.fetch(
-            elements.values() + (f.values + move.source + static_cast<std::int64_t>(row) * move.row_step) * wide,
+            elements.values() + (f.values + move.source + static_cast<std::int64_t>(row) * move.row_step) * lanes_wide,
             move.is_triangle ? row + 1 : move.columns);
     }
   } else {
@@ -68,9 +64,9 @@ void Hierarchical::State::fetch_front(int index, Transfers& transfers) const {
   if (visit_rhs == nullptr) return;
   transfers.fetch(lane_vectors.data() + f.unknown, f.eliminated);
   const int* unknown = lanes.unknowns.data() + f.unknown;
-  transfers.fetch(reinterpret_cast<const double*>(unknown + f.eliminated * wide),
+  transfers.fetch(reinterpret_cast<const double*>(unknown + f.eliminated * lanes_wide),
                   f.eliminated / 2 + 1);  // of the front after it
-  for (int l = 0; l < wide; ++l)
+  for (int l = 0; l < lanes_wide; ++l)
     if (unknown[l] >= 0) __builtin_prefetch(visit_rhs + unknown[l]);
 }
 
@@ -78,16 +74,16 @@ void Hierarchical::State::fetch_front(int index, Transfers& transfers) const {
 /// vector, and the unknowns that it is gathered from or scattered to.
 void Hierarchical::State::prefetch_factor(int index, bool downward) const {
   const LaneFront& f = lanes.fronts[at(index)];
-  const double* factor = lane_factors.data() + f.factor * wide;
+  const double* factor = lane_factors.data() + f.factor * lanes_wide;
   const std::int64_t n = f.size(), e = f.eliminated;
   prefetch_packs(lane_vectors.data() + f.unknown, f.eliminated);
   const int* unknown = lanes.unknowns.data() + f.unknown;
   const double* whole = downward ? x : visit_rhs;
-  for (int l = 0; l < wide; ++l)
+  for (int l = 0; l < lanes_wide; ++l)
     if (unknown[l] >= 0) __builtin_prefetch(whole + unknown[l]);
   if (f.is_symmetric || !downward) return prefetch_packs(factor, static_cast<int>(n * e));
-  prefetch_packs(factor + n * e * wide, static_cast<int>(e * f.boundary));
-  for (std::int64_t k = e; k-- > 0;) prefetch_packs(factor + k * n * wide, static_cast<int>(k + 1));
+  prefetch_packs(factor + n * e * lanes_wide, static_cast<int>(e * f.boundary));
+  for (std::int64_t k = e; k-- > 0;) prefetch_packs(factor + k * n * lanes_wide, static_cast<int>(k + 1));
 }
 
 /// Checks the element matrices of a front just before they are assembled: values that are symmetric once need not
@@ -153,34 +149,35 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
   LaneSet& leaving = leaving_lanes[at(index)];
   LaneSet alone = static_cast<LaneSet>(lanes_to_leave(f) | leaving);
   unsigned present = 0;
-  for (int l = 0; l < wide; ++l) present |= f.front[at(l)] != tree::none ? 1u << l : 0u;
+  for (int l = 0; l < lanes_wide; ++l) present |= f.front[at(l)] != tree::none ? 1u << l : 0u;
   if ((alone & present) == present) {
     factor_lanes_alone(index, factor, alone);
     return;
   }
   for (int i = f.gap_begin; i < f.gap_end; ++i) {
     const LaneGap& gap = lanes.gaps[at(i)];
-    std::memset((gap.in_schur ? schur : factor) + gap.target * wide, 0, sizeof(double) * wide * at(gap.count));
+    std::memset((gap.in_schur ? schur : factor) + gap.target * lanes_wide, 0,
+                sizeof(double) * lanes_wide * at(gap.count));
   }
   for (int i = f.move_begin; i < f.move_end; ++i) {
     transfers.step();
     const LaneMove& move = lanes.moves[at(i)];
-    double* target = (move.to_schur ? schur : factor) + move.target * wide;
+    double* target = (move.to_schur ? schur : factor) + move.target * lanes_wide;
     if (move.child < 0) {
-      move_block(elements.values() + (f.values + move.source) * wide, move, target);
+      move_block(elements.values() + (f.values + move.source) * lanes_wide, move, target);
       continue;
     }
     const LaneChild& child = lanes.children[at(f.child_begin + move.child)];
-    const double* source = schur_of(lanes.fronts[at(child.front)]) + move.source * wide;
+    const double* source = schur_of(lanes.fronts[at(child.front)]) + move.source * lanes_wide;
     if (child.is_identity)
       move_block(source, move, target);
     else
       move_block(source, move, child.from.data(), target);
   }
   if (f.has_padding)
-    for (int k = 0; k < e * wide; ++k)
+    for (int k = 0; k < e * lanes_wide; ++k)
       if (lanes.unknowns[at(f.unknown + k)] < 0)
-        factor[static_cast<std::int64_t>(k / wide) * (n + 1) * wide + k % wide] = 1.0;
+        factor[static_cast<std::int64_t>(k / lanes_wide) * (n + 1) * lanes_wide + k % lanes_wide] = 1.0;
   if (alone != 0) neutralise_lanes(factor, schur, n, e, alone, symmetry.used);
   mark(tree::Stage::assemble);
   const PivotRule rule{options.pivot_threshold, options.tiny_pivot};
@@ -195,10 +192,10 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
 /// All lanes leave: the front is an identity in each of them.
 void Hierarchical::State::factor_lanes_alone(int index, double* factor, LaneSet alone) {
   const LaneFront& f = lanes.fronts[at(index)];
-  std::memset(factor, 0, sizeof(double) * wide * at(f.factor_size()));
-  std::memset(schur_of(f), 0, sizeof(double) * wide * at(f.schur_size()));
+  std::memset(factor, 0, sizeof(double) * lanes_wide * at(f.factor_size()));
+  std::memset(schur_of(f), 0, sizeof(double) * lanes_wide * at(f.schur_size()));
   for (int k = 0; k < f.eliminated; ++k)
-    std::fill_n(factor + static_cast<std::int64_t>(k) * (f.size() + 1) * wide, wide, 1.0);
+    std::fill_n(factor + static_cast<std::int64_t>(k) * (f.size() + 1) * lanes_wide, lanes_wide, 1.0);
   scalar_lanes[at(index)] = alone;
   mark(tree::Stage::assemble);
   leave_lanes(index, factor, alone);
@@ -207,7 +204,7 @@ void Hierarchical::State::factor_lanes_alone(int index, double* factor, LaneSet 
 /// Factors lanes by themselves. One with dependent rows does not try to stay in the next factorization in these scales.
 void Hierarchical::State::leave_lanes(int index, const double* factor, LaneSet alone) {
   LaneSet& leaving = leaving_lanes[at(index)];
-  for (int l = 0; alone != 0 && l < wide; ++l) {
+  for (int l = 0; alone != 0 && l < lanes_wide; ++l) {
     if ((alone >> l & 1) == 0) continue;
     factor_lane_alone(index, l);
     const FrontData& d = data(lanes.fronts[at(index)].front[at(l)]);
@@ -228,9 +225,9 @@ void Hierarchical::State::add_children_vectors(const LaneFront& f, double* v) {
     for (auto p = child.run_begin; p < child.run_end; ++p) {
       const LaneRun& rows = lanes.runs[at(p)];
       if (child.is_identity) {
-        add_packs(g + rows.from * wide, rows.length, v + rows.to * wide);
+        add_packs(g + rows.from * lanes_wide, rows.length, v + rows.to * lanes_wide);
       } else {
-        add_packs(g + rows.from * wide, rows.length, v + rows.to * wide, child.from.data());
+        add_packs(g + rows.from * lanes_wide, rows.length, v + rows.to * lanes_wide, child.from.data());
       }
     }
   }
@@ -241,40 +238,41 @@ void Hierarchical::State::forward_lane_front(int index, const double* factor) {
   double* v = vector_of(f);
   const int* unknown = lanes.unknowns.data() + f.unknown;
   if (f.has_padding) {
-    for (int k = 0; k < f.eliminated * wide; ++k) v[k] = unknown[k] < 0 ? 0.0 : visit_rhs[unknown[k]];
+    for (int k = 0; k < f.eliminated * lanes_wide; ++k) v[k] = unknown[k] < 0 ? 0.0 : visit_rhs[unknown[k]];
   } else {
-    for (int k = 0; k < f.eliminated * wide; ++k) v[k] = visit_rhs[unknown[k]];
+    for (int k = 0; k < f.eliminated * lanes_wide; ++k) v[k] = visit_rhs[unknown[k]];
   }
-  std::fill_n(v + f.eliminated * wide, f.boundary * wide, 0.0);
+  std::fill_n(v + f.eliminated * lanes_wide, f.boundary * lanes_wide, 0.0);
   add_children_vectors(f, v);
   forward_lanes(factor, f.size(), f.eliminated, v);
-  std::copy_n(v, f.eliminated * wide, lane_vectors.data() + f.unknown);
+  std::copy_n(v, f.eliminated * lanes_wide, lane_vectors.data() + f.unknown);
   const LaneSet alone = scalar_lanes[at(index)];
-  for (int l = 0; alone != 0 && l < wide; ++l) {
+  for (int l = 0; alone != 0 && l < lanes_wide; ++l) {
     if ((alone >> l & 1) == 0) continue;
     const tree::FrontId id = f.front[at(l)];
     forward_front(id);
     const FrontData& d = data(id);
-    for_boundary(
-        id, [&](int i, std::size_t u) { v[(f.eliminated + i) * wide + l] = d.vector[d.full + i] / scales.row[u]; });
+    for_boundary(id, [&](int i, std::size_t u) {
+      v[(f.eliminated + i) * lanes_wide + l] = d.vector[d.full + i] / scales.row[u];
+    });
   }
 }
 
 void Hierarchical::State::backward_lane_front(int index) {
   const LaneFront& f = lanes.fronts[at(index)];
   double* v = vector_of(f);
-  std::copy_n(lane_vectors.data() + f.unknown, f.eliminated * wide, v);
+  std::copy_n(lane_vectors.data() + f.unknown, f.eliminated * lanes_wide, v);
   if (reads_factors_ahead && index > 0) prefetch_factor(index - 1, true);
-  (f.is_symmetric ? backward_lanes_symmetric : backward_lanes)(lane_factors.data() + f.factor * wide, f.size(),
+  (f.is_symmetric ? backward_lanes_symmetric : backward_lanes)(lane_factors.data() + f.factor * lanes_wide, f.size(),
                                                                f.eliminated, v);
   const int* unknown = lanes.unknowns.data() + f.unknown;
   const LaneSet alone = scalar_lanes[at(index)];
   if (alone == 0 && !f.has_padding) {
-    for (int k = 0; k < f.eliminated * wide; ++k) x[at(unknown[k])] = v[k];
+    for (int k = 0; k < f.eliminated * lanes_wide; ++k) x[at(unknown[k])] = v[k];
   } else {
-    for (int k = 0; k < f.eliminated * wide; ++k)
-      if (unknown[k] >= 0 && (alone >> (k % wide) & 1) == 0) x[at(unknown[k])] = v[k];
-    for (int l = 0; l < wide; ++l)
+    for (int k = 0; k < f.eliminated * lanes_wide; ++k)
+      if (unknown[k] >= 0 && (alone >> (k % lanes_wide) & 1) == 0) x[at(unknown[k])] = v[k];
+    for (int l = 0; l < lanes_wide; ++l)
       if ((alone >> l & 1) != 0) {
         backward_front(f.front[at(l)]);
         fill_lane_vector(f.front[at(l)], true);
@@ -286,11 +284,13 @@ void Hierarchical::State::backward_lane_front(int index) {
     for (auto p = child.run_begin; p < child.run_end; ++p) {
       const LaneRun& rows = lanes.runs[at(p)];
       if (child.is_identity) {
-        std::memcpy(to + rows.from * wide, v + rows.to * wide, sizeof(double) * wide * at(rows.length));
+        std::memcpy(to + rows.from * lanes_wide, v + rows.to * lanes_wide,
+                    sizeof(double) * lanes_wide * at(rows.length));
       } else {
         for (int i = 0; i < rows.length; ++i)
-          for (int l = 0; l < wide; ++l)
-            if (child.from[at(l)] >= 0) to[(rows.from + i) * wide + child.from[at(l)]] = v[(rows.to + i) * wide + l];
+          for (int l = 0; l < lanes_wide; ++l)
+            if (child.from[at(l)] >= 0)
+              to[(rows.from + i) * lanes_wide + child.from[at(l)]] = v[(rows.to + i) * lanes_wide + l];
       }
     }
   }
@@ -299,15 +299,15 @@ void Hierarchical::State::backward_lane_front(int index) {
 /// Left vectors, for null spaces: gathers the boundary from `left`, unscaled, and writes its own part there.
 void Hierarchical::State::backward_left_lane_front(int index, std::vector<double>& left) {
   const LaneFront& f = lanes.fronts[at(index)];
-  alignas(64) double v[most_lane_rows * wide];
-  std::memset(v, 0, sizeof(double) * wide * at(f.size()));
-  for (int l = 0; l < wide; ++l)
+  alignas(64) double v[most_lane_rows * lanes_wide];
+  std::memset(v, 0, sizeof(double) * lanes_wide * at(f.size()));
+  for (int l = 0; l < lanes_wide; ++l)
     if (f.front[at(l)] != tree::none)
-      for_boundary(f.front[at(l)], [&](int i, std::size_t u) { v[(f.eliminated + i) * wide + l] = left[u]; });
-  backward_left_lanes(lane_factors.data() + f.factor * wide, f.size(), f.eliminated, v);
-  for (int k = 0; k < f.eliminated * wide; ++k) {
+      for_boundary(f.front[at(l)], [&](int i, std::size_t u) { v[(f.eliminated + i) * lanes_wide + l] = left[u]; });
+  backward_left_lanes(lane_factors.data() + f.factor * lanes_wide, f.size(), f.eliminated, v);
+  for (int k = 0; k < f.eliminated * lanes_wide; ++k) {
     const int u = lanes.unknowns[at(f.unknown + k)];
-    if (u >= 0 && (scalar_lanes[at(index)] >> (k % wide) & 1) == 0) left[at(u)] = v[k];
+    if (u >= 0 && (scalar_lanes[at(index)] >> (k % lanes_wide) & 1) == 0) left[at(u)] = v[k];
   }
 }
 

@@ -10,7 +10,6 @@ namespace bough::solve {
 
 namespace {
 
-constexpr int wide = lanes_wide;
 constexpr int most = NullVectors::most;
 
 /// Entries below this share of the largest one of their vector are round-off. Left in, they would couple every null
@@ -154,16 +153,16 @@ void Hierarchical::State::substitute_null_vectors(tree::FrontId f, int count, Nu
   if (!is_scalar(f)) {
     const int index = lanes.lane_front[at(f)], lane = lanes.lane[at(f)];
     const LaneFront& packed = lanes.fronts[at(index)];
-    const std::size_t step = at(packed.size()) * wide;
+    const std::size_t step = at(packed.size()) * lanes_wide;
     s.values.assign(step * at(count), 0.0);
     double* z = s.values.data();
-    for_boundary(f, [&](int i, std::size_t u) { take(u, 1.0, z + (packed.eliminated + i) * wide + lane, step); });
+    for_boundary(f, [&](int i, std::size_t u) { take(u, 1.0, z + (packed.eliminated + i) * lanes_wide + lane, step); });
     for (std::size_t v = 0; v < at(count); ++v)
       (is_right ? (packed.is_symmetric ? backward_lanes_symmetric : backward_lanes) : backward_left_lanes)(
           factor_of(packed), packed.size(), packed.eliminated, z + v * step);
     for (int k = 0; k < packed.eliminated; ++k) {
-      const int u = lanes.unknowns[at(packed.unknown + k * wide + lane)];
-      if (u >= 0) put(at(u), 1.0, z + k * wide + lane, step);
+      const int u = lanes.unknowns[at(packed.unknown + k * lanes_wide + lane)];
+      if (u >= 0) put(at(u), 1.0, z + k * lanes_wide + lane, step);
     }
     return;
   }

@@ -8,10 +8,6 @@
 
 namespace bough::solve {
 
-namespace {
-constexpr int wide = lanes_wide;
-}  // namespace
-
 void Hierarchical::State::residual_group(int index) {
   const LaneGroup& group = lanes.groups[at(index)];
   SolutionSizes& size = sizes[at(index)];
@@ -39,15 +35,15 @@ void Hierarchical::State::residual_group(int index) {
 void Hierarchical::State::residual_lane_front(int index, SolutionSizes& most) {
   const LaneFront& f = lanes.fronts[at(index)];
   const int* unknown = lanes.unknowns.data() + f.unknown;
-  alignas(64) double v[most_lane_rows * wide];
-  std::memset(v, 0, sizeof(double) * wide * at(f.size()));
-  for (int k = 0; k < f.eliminated * wide; ++k)
+  alignas(64) double v[most_lane_rows * lanes_wide];
+  std::memset(v, 0, sizeof(double) * lanes_wide * at(f.size()));
+  for (int k = 0; k < f.eliminated * lanes_wide; ++k)
     if (unknown[k] >= 0) v[k] = x[at(unknown[k])];
-  for (int l = 0; l < wide; ++l)
+  for (int l = 0; l < lanes_wide; ++l)
     if (f.front[at(l)] != tree::none)
-      for_boundary(f.front[at(l)], [&](int i, std::size_t u) { v[(f.eliminated + i) * wide + l] = x[u]; });
+      for_boundary(f.front[at(l)], [&](int i, std::size_t u) { v[(f.eliminated + i) * lanes_wide + l] = x[u]; });
   double* r = vector_of(f);
-  std::fill_n(r, f.size() * wide, 0.0);
+  std::fill_n(r, f.size() * lanes_wide, 0.0);
   add_children_vectors(f, r);
   for (int i = f.element_begin; i < f.element_end; ++i) {
     const LaneElement& element = lanes.elements[at(i)];
@@ -56,11 +52,12 @@ void Hierarchical::State::residual_lane_front(int index, SolutionSizes& most) {
     const auto count = static_cast<int>(element.place_end - element.place_begin);
     for (int p = 0, i0 = 0; p < count; i0 += places[p++].length)
       for (int q = 0, j0 = 0; q < count; j0 += places[q++].length)
-        multiply_block_lanes(values + static_cast<std::int64_t>(i0 * element.size + j0) * wide, element.size,
-                             places[p].length, places[q].length, v + places[q].row * wide, r + places[p].row * wide);
+        multiply_block_lanes(values + static_cast<std::int64_t>(i0 * element.size + j0) * lanes_wide, element.size,
+                             places[p].length, places[q].length, v + places[q].row * lanes_wide,
+                             r + places[p].row * lanes_wide);
   }
   const double* scale = lane_scales.row(index);
-  for (int k = 0; k < f.eliminated * wide; ++k) {
+  for (int k = 0; k < f.eliminated * lanes_wide; ++k) {
     const int u = unknown[k];
     if (u < 0) {
       r[k] = 0.0;

@@ -11,19 +11,17 @@ namespace bough::solve {
 
 namespace {
 
-constexpr int wide = lanes_wide;  // doubles of a pack, which is a line
-
 void fetch_packs(const double* packs, std::int64_t count) {
-  for (std::int64_t i = 0; i < count; ++i) __builtin_prefetch(packs + i * wide, 0, 2);
+  for (std::int64_t i = 0; i < count; ++i) __builtin_prefetch(packs + i * lanes_wide, 0, 2);
 }
 
 void write_packs(const double* from, std::int64_t count, double* to) {
 #if defined(__AVX512F__)
-  for (std::int64_t i = 0; i < count * wide; i += 8) _mm512_stream_pd(to + i, _mm512_load_pd(from + i));
+  for (std::int64_t i = 0; i < count * lanes_wide; i += 8) _mm512_stream_pd(to + i, _mm512_load_pd(from + i));
 #elif defined(__AVX__)
-  for (std::int64_t i = 0; i < count * wide; i += 4) _mm256_stream_pd(to + i, _mm256_load_pd(from + i));
+  for (std::int64_t i = 0; i < count * lanes_wide; i += 4) _mm256_stream_pd(to + i, _mm256_load_pd(from + i));
 #else
-  for (std::int64_t i = 0; i < count * wide; i += 2) _mm_stream_pd(to + i, _mm_load_pd(from + i));
+  for (std::int64_t i = 0; i < count * lanes_wide; i += 2) _mm_stream_pd(to + i, _mm_load_pd(from + i));
 #endif
 }
 
@@ -42,9 +40,9 @@ void Transfers::move(std::int64_t count) {
     const Range& range = ranges_[next_];
     const std::int64_t some = std::min(count, range.count - done_);
     if (range.to == nullptr)
-      fetch_packs(range.from + done_ * wide, some);
+      fetch_packs(range.from + done_ * lanes_wide, some);
     else
-      write_packs(range.from + done_ * wide, some, range.to + done_ * wide);
+      write_packs(range.from + done_ * lanes_wide, some, range.to + done_ * lanes_wide);
     count -= some;
     done_ += some;
     waiting_ -= some;

@@ -12,9 +12,6 @@ namespace bough::step {
 
 namespace {
 
-constexpr double largest_turn =
-    2.8;  ///< rotation of a node in one step [rad]: below pi, where the logarithm is no longer unique
-
 /// Stores the largest of something in a range of eights.
 void note_most(System& system, std::int64_t begin, std::int64_t end, double most) {
   std::vector<double>& all = system.work().eight_most;
@@ -28,7 +25,7 @@ double noted_most(System& system) {
 }
 
 /// The formulas of generalized-alpha applied to all nodes, for a step that begins at `start`.
-struct Integrator {
+struct AlphaStep {
   AlphaRule rule;
   const State& start;
 
@@ -152,7 +149,7 @@ void note_whole_end(System& system, const AlphaRule& rule, const State& start, S
                                                                  : state.signals.value[i] - start.signals.value[i];
 }
 
-Integrator make_rule(System& system, const StepOptions& options, const State& start) {
+AlphaStep make_rule(System& system, const StepOptions& options, const State& start) {
   return {{make_alpha_coefficients(options.spectral_radius), start.step_size,
            FirstOrderRule(options.spectral_radius, start.step_size)},
           start,
@@ -160,7 +157,7 @@ Integrator make_rule(System& system, const StepOptions& options, const State& st
 }
 
 /// Sets the laws of `end_time` and the predicted state.
-std::optional<Trouble> enter(System& system, State& state, const Integrator& step, double end_time, laws::Side side) {
+std::optional<Trouble> enter(System& system, State& state, const AlphaStep& step, double end_time, laws::Side side) {
   if (auto t = system.set_time(end_time, side)) return t;
   state.time = end_time;
   return step.predict(state);
@@ -168,7 +165,7 @@ std::optional<Trouble> enter(System& system, State& state, const Integrator& ste
 
 StepReport try_step(System& system, State& state, const State& start, const StepOptions& options, double end_time,
                     laws::Side side) {
-  const Integrator step = make_rule(system, options, start);
+  const AlphaStep step = make_rule(system, options, start);
   StepReport report;
   const auto fail = [&](const Trouble& t) {
     report.converged = false;
@@ -190,7 +187,7 @@ StepReport try_step(System& system, State& state, const State& start, const Step
 std::optional<Trouble> predict(System& system, State& state, const StepOptions& options, double end_time,
                                elements::Slopes& slopes) {
   const State start = state;
-  const Integrator step = make_rule(system, options, start);
+  const AlphaStep step = make_rule(system, options, start);
   slopes = step.rule.slopes();
   return enter(system, state, step, end_time, laws::Side::left);
 }

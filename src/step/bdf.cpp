@@ -14,8 +14,8 @@ namespace bough::step {
 
 namespace {
 
-constexpr double largest_turn =
-    1.4;  ///< rotation of a node in one step [rad]: two steps stay below pi, where the logarithm ceases to be unique
+/// Rotation of a node in one step [rad]: two steps stay below pi, where the logarithm ceases to be unique.
+constexpr double largest_turn_of_two = 1.4;
 
 /// Increment of a node from state a to state b, log(H_a^-1 H_b).
 template <class G>
@@ -221,7 +221,7 @@ std::optional<Trouble> Bdf::judge_turn(const State& state) const {
   return state.visit([&]<class G>(const NodesOn<G>& nodes) -> std::optional<Trouble> {
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
       const typename NodesOn<G>::Vector D = c_.c0 * nodes.motion[n].dq;
-      if (!(motion::VectorsOn<G>::template angular_square<double>(D) <= largest_turn * largest_turn))
+      if (!(motion::VectorsOn<G>::template angular_square<double>(D) <= largest_turn_of_two * largest_turn_of_two))
         return Trouble{"'" + system_.plan().nodes[n].name + "' turns by nearly a quarter of a turn in one step"};
     }
     return std::nullopt;

@@ -13,6 +13,8 @@ namespace bough::step {
 
 /// A change whose square may not be finite: the iteration is lost.
 inline constexpr double too_far = 1e100;
+/// Largest rotation of a node in one step [rad]: below pi, where the logarithm ceases to be unique.
+inline constexpr double largest_turn = 2.8;
 
 /// A motion vector of a node, expanded to six components in the node's own axes.
 template <int N>

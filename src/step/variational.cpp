@@ -15,7 +15,6 @@ namespace bough::step {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double largest_turn = 2.8;  ///< rotation of a node in one step [rad], below pi: the logarithm is unique
 
 template <class Vector>
 void add_sizes(const Vector& v, Vector& to) {

@@ -15,7 +15,7 @@ namespace {
 
 using Times = std::vector<double>;
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Analytic {
   std::string text;

@@ -12,7 +12,7 @@
 namespace bough::scene {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 void expect_near(const Vec3& a, const Vec3& b, double tolerance) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << "component " << i;

@@ -12,7 +12,7 @@
 namespace bough::scene {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Every kind of section, none with equal sides.
 std::vector<SectionShape> sections() {
