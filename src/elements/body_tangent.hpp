@@ -82,7 +82,7 @@ BOUGH_INLINE void eval_tangent(const SpringOn<G, C>& spring, const PortMotionOn<
   }
 }
 
-/// f = U^T n,  n = K (d - d0) + D U xi,  U = T(d)^-1,  dd = U zeta (see relative_force.hpp).
+/// f = U^T n,  n = k K (d - d0) + D U xi,  U = T(d)^-1,  dd = U zeta (see relative_force.hpp).
 template <class G, class S, class C, class Put>
 BOUGH_INLINE void eval_tangent(const BushingOn<G, C>& bushing, const PortMotionOn<G, S>* p,
                                const PortSlopesOn<G, S>* ports, const SurroundingsOn<G, S>& around, S* residual,
@@ -90,12 +90,13 @@ BOUGH_INLINE void eval_tangent(const BushingOn<G, C>& bushing, const PortMotionO
   const bool viscous = around.has_inertia && bushing.has_damping;
   ScrewRates<G, S> r;
   eval_screw_rates<G, S>(p, around, false, viscous, r);
-  const auto n = eval_screw_resultant<G, S>(bushing, r, viscous);
+  const auto n = eval_resultant<G, S>(bushing, r, around, viscous);
   RelativeForce<G, S> e;
   e.Q = G::inverse_adjoint_map(G::relative(p[0].H, p[1].H));
   e.f = put_screw_wrenches<G, S>(r, n, residual);
   const auto U = matrix(r.inverse);
   auto n_d = lanes::cast<S>(bushing.stiffness);
+  if (bushing.factor >= 0) n_d = around.laws[bushing.factor] * n_d;
   if (viscous) {
     e.has_twist = true;
     const auto xi = G::motion(p[1].v) - G::times(e.Q, G::motion(p[0].v));

@@ -23,12 +23,13 @@ void add_momentum(const Vec6<S>& momentum, const PortMotion<S>& p, const Vec6<S>
 }
 
 template <class S, int N, class C>
-void add_energies(const Beam<N, C>& beam, const PortMotion<S>* p, const Vec3<S>& anchor, bool moves, const C&,
-                  EnergiesOf<S>& sum) {
+void add_energies(const Beam<N, C>& beam, const PortMotion<S>* p, const Vec3<S>& anchor, const Surroundings<S>& around,
+                  const C&, EnergiesOf<S>& sum) {
   const BeamShape<S, N> b = eval_shape<S, N>(p);
   sum.strain = eval_strain_energy<S, N>(beam, b);
   if (!beam.has_mass) return;
   const PortMotion<S>& r = p[Beam<N>::reference];
+  const bool moves = around.has_inertia;
   Vec6<S> rate[N];
   if (moves) eval_shape_rates<S, N>(b, p, rate);
   const auto& rule = mass_rule<N>();
@@ -43,22 +44,24 @@ void add_energies(const Beam<N, C>& beam, const PortMotion<S>* p, const Vec3<S>&
 }
 
 template <class S, class C>
-void add_energies(const RigidBodyOf<C>& body, const PortMotion<S>* p, const Vec3<S>& anchor, bool moves, const C&,
-                  EnergiesOf<S>& sum) {
-  if (moves) add_momentum<S>(Vec6<S>(body.mass * p[0].v), p[0], p[0].v, anchor, sum);
+void add_energies(const RigidBodyOf<C>& body, const PortMotion<S>* p, const Vec3<S>& anchor,
+                  const Surroundings<S>& around, const C&, EnergiesOf<S>& sum) {
+  if (around.has_inertia) add_momentum<S>(Vec6<S>(body.mass * p[0].v), p[0], p[0].v, anchor, sum);
   add_mass(body.mass, C(1.0), p[0], anchor, sum);
 }
 
 template <class S, class C>
-void add_energies(const SpringOf<C>& e, const PortMotion<S>* p, const Vec3<S>&, bool, const C&, EnergiesOf<S>& sum) {
+void add_energies(const SpringOf<C>& e, const PortMotion<S>* p, const Vec3<S>&, const Surroundings<S>&, const C&,
+                  EnergiesOf<S>& sum) {
   sum.strain = eval_strain_energy(e, p);
 }
 template <class S, class C>
-void add_energies(const BushingOf<C>& e, const PortMotion<S>* p, const Vec3<S>&, bool, const C&, EnergiesOf<S>& sum) {
-  sum.strain = eval_strain_energy(e, p);
+void add_energies(const BushingOf<C>& e, const PortMotion<S>* p, const Vec3<S>&, const Surroundings<S>& around,
+                  const C&, EnergiesOf<S>& sum) {
+  sum.strain = eval_strain_energy(e, p, around.laws);
 }
 template <class S, class C>
-void add_energies(const JointOf<C>& e, const PortMotion<S>* p, const Vec3<S>&, bool, const C& turns,
+void add_energies(const JointOf<C>& e, const PortMotion<S>* p, const Vec3<S>&, const Surroundings<S>&, const C& turns,
                   EnergiesOf<S>& sum) {
   sum.strain = eval_strain_energy(e, p, turns);
 }
@@ -69,7 +72,7 @@ EnergiesOf<S> energies_of(const E& e, const FieldOf<S>& field, const S& turns) {
   Vec3<S> anchor;
   eval_ports_from_inertial(e, field, p, anchor);
   EnergiesOf<S> sum;
-  add_energies(e, p, anchor, field.around.has_inertia, turns, sum);
+  add_energies(e, p, anchor, field.around, turns, sum);
   return sum;
 }
 

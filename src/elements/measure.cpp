@@ -67,6 +67,8 @@ Measures measure_coupling(const E& e, const Field& field, bool with_energies) {
     eval_residual(e, p, still, elastic);
     for (int k = 0; k < 12; ++k) m.dissipation_rate += (out[k] - elastic[k]) * p[k / 6].v[k % 6];
   }
+  if constexpr (requires { eval_energy_by_factor(e, p); })
+    if (stiffness_law(e) >= 0) m.strain_by_law = eval_energy_by_factor(e, p);
   add_ground_reaction(e, p, anchor, out, m);
   return m;
 }

@@ -191,6 +191,7 @@ void Converter::bushing(const Value& v, const std::string& at) {
   b.second = second.to;
   if (const Value* k = v.find("stiffness")) b.stiffness = matrix6(*k);
   if (const Value* d = v.find("damping")) b.damping = matrix6(*d);
+  if (const Value* k = v.find("stiffness_factor")) b.factor = law_or_signal(*k, at + "/stiffness_factor", b.signal);
   add(scene.bushings, "bushings", std::move(b), at);
 }
 

@@ -162,7 +162,8 @@ class Checker {
   static std::string type_hint(const Rule& rule, const JsonValue& value) {
     if (json_kind(rule.form) == JsonKind::number && value.find("signal") != nullptr)
       return "this number is constant; signals may stand in drives and prescribed motions, efforts of joints (a strut "
-             "acts between two points), factors of loads and of gravity, and rest_law and stiffness_factor of springs";
+             "acts between two points), factors of loads and of gravity, rest_law of springs, and stiffness_factor of "
+             "springs and bushings";
     if (json_kind(rule.form) == JsonKind::number && value.is(JsonKind::string))
       return "write numbers without quotes, in SI units";
     if (rule.form == Form::array && value.is(JsonKind::object)) return "put it in brackets: [ ... ]";

@@ -204,7 +204,9 @@ void add_joints(RuleTable& t) {
                       need("second", named_rule("attachment"), "The other side."),
                       may("position", named_rule("vector"), "Place at the start, in the ground [m], as of a joint."),
                       may("stiffness", six, "[N/m, N, N m/rad], order (linear; angular). Default: none."),
-                      may("damping", six, "The same for rates. Default: none.")}));
+                      may("damping", six, "The same for rates. Default: none."),
+                      may("stiffness_factor", named_rule("law_or_signal"),
+                          "Factor of the stiffness that changes [-]; damping is as given. Default: 1.")}));
 }
 
 void add_loads(RuleTable& t) {

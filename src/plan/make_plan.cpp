@@ -193,6 +193,7 @@ void Builder::add_couplings() {
     e.damping = b.damping;
     for (int i = 0; i < 36; ++i) e.has_damping |= b.damping.m[i] != 0.0;
     e.rest = motion::Se3::log(motion::relative(initial_pose(e.ports[0]), initial_pose(e.ports[1])));
+    if (b.factor.node() != nullptr || !b.signal.empty()) e.factor = add_factor(b.factor, b.signal, b.name);
     add(e, b.name);
   }
   for (const scene::PointLoad& l : scene.point_loads) {

@@ -114,6 +114,8 @@ WorkMeter::WorkMeter(const plan::Plan& plan) {
         ports_.resize(ports_.size() + E::num_ports);
       else if constexpr (E::role == elements::Role::joint)
         drives_.resize(drives_.size() + static_cast<std::size_t>(e.num_rows + e.num_efforts));
+      else if (stiffness_law(e) >= 0)
+        drives_.emplace_back();
       if constexpr (elements::joins_two_frames(E::role))
         for (const elements::Port& p : e.ports)
           if (is_moved(plan, p)) ports_.emplace_back();
@@ -168,6 +170,9 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
         if (f.carriers != nullptr)
           work += advance_grounds(plan, e, f, multipliers, turns, ports_.data() + w.first_port);
       const Measures m = elements::measure(e, f, multipliers, turns, false);
+      if (const int law = stiffness_law(e); law >= 0)
+        advance_drive(drives_[w.first_drive], system.instant().law_values()[static_cast<std::size_t>(law)],
+                      m.strain_by_law);
       dissipation_rate_ += m.dissipation_rate;
       force_ += lanes::linear_part(m.load);
     });

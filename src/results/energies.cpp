@@ -59,7 +59,8 @@ void EnergyMeter::sort(const plan::Plan& plan, Kind<E>& kind) {
     }
     Group<E> group{first, 1};
     while (group.count < elements::num_lanes && first + group.count < size && plan.frames.empty() &&
-           stores_energy(element(first + group.count)) && may_share_lanes(element(first), element(first + group.count)))
+           stiffness_law(element(first)) < 0 && stores_energy(element(first + group.count)) &&
+           may_share_lanes(element(first), element(first + group.count)))
       ++group.count;
     kind.groups.push_back(group);
     first += group.count;

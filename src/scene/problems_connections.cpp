@@ -192,6 +192,10 @@ void check_couplings(ProblemList& list) {
       list.add("bushings", i, "damping", "", "the damping " + fault);
     if (is_zero(b.stiffness) && is_zero(b.damping))
       list.warn("bushings", i, "", "", "without stiffness and damping it does nothing");
+    list.check_law("bushings", i, "stiffness_factor", b.factor, false);
+    if (is_zero(b.stiffness) && (b.factor.node() != nullptr || !b.signal.empty()))
+      list.add("bushings", i, "stiffness_factor", "", "there is no stiffness that this factor could multiply",
+               "give the stiffness at the factor 1");
   }
 }
 

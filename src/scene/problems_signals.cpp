@@ -264,6 +264,10 @@ void check_signals(ProblemList& list) {
       names.check("joints", i, key, scene.joints[i].forces[k].signal);
       levels.check_effort("joints", i, key, scene.joints[i].forces[k].signal);
     }
+  for (std::size_t i = 0; i < scene.bushings.size(); ++i) {
+    names.check("bushings", i, "stiffness_factor/signal", scene.bushings[i].signal);
+    levels.check_effort("bushings", i, "stiffness_factor/signal", scene.bushings[i].signal);
+  }
   check_driven_rows(list, names, levels);
   const auto check_loads_of = [&](const char* section, const auto& loads) {
     for (std::size_t i = 0; i < loads.size(); ++i) {

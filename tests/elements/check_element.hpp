@@ -76,9 +76,11 @@ void eval_kernel_of(const E& e, const PortMotion<S>* p, const S* multipliers, co
 }
 
 template <class S, class E>
-S energy_of(const E& e, const PortMotion<S>* p, double turns) {
+S energy_of(const E& e, const PortMotion<S>* p, double turns, const S* laws) {
   if constexpr (E::num_multipliers > 0)
     return eval_strain_energy(e, p, turns);
+  else if constexpr (requires { eval_strain_energy(e, p, laws); })
+    return eval_strain_energy(e, p, laws);
   else
     return eval_strain_energy(e, p);
 }

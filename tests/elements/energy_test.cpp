@@ -13,6 +13,7 @@ constexpr double exact = 1e-13;  // both sides exact, numbers near one
 template <class E>
 std::vector<double> energy_gradient(const Sample<E>& s) {
   const motion::Vec3Pair anchor = anchor_of(s.element, s.nodes.data());
+  const std::vector<Complex> laws = complex_of(s.laws);
   std::vector<double> r;
   for (const Port& port : s.element.ports) {
     if (port.node == ground) continue;
@@ -21,7 +22,7 @@ std::vector<double> energy_gradient(const Sample<E>& s) {
       NodeState<Complex>& n = states[static_cast<std::size_t>(port.node)];
       n.H = motion::compose(n.H, motion::exp_se3(Vec6<Complex>(Complex(0.0, complex_step) * Vec6<Complex>::unit(k))));
       const auto p = ports_of(s.element, states, anchor.hi);
-      r.push_back(energy_of(s.element, p.data(), s.turns).imag() / complex_step);
+      r.push_back(energy_of(s.element, p.data(), s.turns, laws.data()).imag() / complex_step);
     }
   }
   return r;

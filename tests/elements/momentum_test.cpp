@@ -44,11 +44,11 @@ S lagrangian_of(const Beam<N>& e, const PortMotion<S>* p, const Surroundings<S>&
   return sum;
 }
 template <class S>
-S lagrangian_of(const Bushing& e, const PortMotion<S>* p, const Surroundings<S>&) {
+S lagrangian_of(const Bushing& e, const PortMotion<S>* p, const Surroundings<S>& around) {
   const Frame<S> relative = motion::relative(p[0].H, p[1].H);
   const Vec6<S> rate = motion::inverse_tangent_times(motion::Se3::log(relative),
                                                      Vec6<S>(p[1].v - motion::inverse_adjoint_times(relative, p[0].v)));
-  return 0.5 * elastic * lanes::dot(rate, Vec6<S>(e.stiffness * rate)) - eval_strain_energy(e, p);
+  return 0.5 * elastic * lanes::dot(rate, Vec6<S>(e.stiffness * rate)) - eval_strain_energy(e, p, around.laws);
 }
 template <class S>
 S lagrangian_of(const Spring& e, const PortMotion<S>* p, const Surroundings<S>&) {
@@ -137,9 +137,10 @@ TEST(Momentum, of_beams_is_the_derivative_of_the_discrete_action) {
 }
 TEST(Momentum, of_couplings_is_the_derivative_of_the_discrete_action) {
   for (const Ends ends : {Ends::plain, Ends::offset, Ends::grounded}) {
-    auto bushing = bushing_sample(ends);
-    bushing.element.has_damping = false;
-    expect_momenta(bushing);
+    for (auto bushing : {bushing_sample(ends), driven_bushing_sample(ends)}) {
+      bushing.element.has_damping = false;
+      expect_momenta(bushing);
+    }
     auto spring = spring_sample(ends);
     spring.element.damping = 0.0;
     expect_momenta(spring);

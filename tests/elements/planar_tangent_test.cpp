@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bough/elements/law_slope.hpp"
 #include "elements/jets.hpp"
 #include "elements/samples.hpp"
 
@@ -94,6 +95,7 @@ void make(Bushing& e, const Kind& kind, Numbers& numbers) {
   e.damping = kind.has_damping ? definite(numbers) : Mat3<double>::zero();
   e.has_damping = kind.has_damping;
   e.rest = numbers.vec3();
+  e.factor = kind.has_mass ? 1 : -1;
 }
 /// Rows of every kind that a plane has, efforts along a displacement and about the normal.
 void make(Joint& e, const Kind& kind, Numbers& numbers) {
@@ -191,6 +193,34 @@ TEST(PlanarElements, have_the_tangent_of_their_residual) {
   compare_with_jets<Spring>("spring");
   compare_with_jets<Bushing>("bushing");
   compare_with_jets<Joint>("joint");
+}
+
+/// Laws enter residuals linearly: the derivative by one is the change of the residual with 1 more of it.
+template <class E>
+void compare_law_slopes() {
+  visit_cases([](const Kind& kind, bool has_inertia, const Slopes& slopes) {
+    const Sample<E> s = sample<E>(kind, 3);
+    int laws[max_laws];
+    for (int k = 0; k < list_laws(s.element, laws); ++k) {
+      double values[2] = {law_values[0], law_values[1]};
+      Field field{s.nodes, surroundings(has_inertia), slopes};
+      field.around.laws = values;
+      std::vector<double> slope(static_cast<std::size_t>(num_unknowns(s.element)));
+      evaluate_law_slope(s.element, field, multiplier_values, turns, laws[k], slope.data());
+      const Result before = evaluated(s, field);
+      values[laws[k]] += 1.0;
+      const Result after = evaluated(s, field);
+      for (std::size_t i = 0; i < slope.size(); ++i)
+        EXPECT_NEAR(slope[i], after.residual[i] - before.residual[i], 1e-13) << "law " << laws[k] << ", entry " << i;
+    }
+  });
+}
+
+TEST(PlanarElements, change_with_a_law_as_the_law_slope_says) {
+  compare_law_slopes<PointLoad>();
+  compare_law_slopes<LineLoad<2>>();
+  compare_law_slopes<Bushing>();
+  compare_law_slopes<Joint>();
 }
 
 template <class E>

@@ -222,6 +222,14 @@ inline Sample<Bushing> bushing_sample(Ends ends) {
   return s;
 }
 
+/// Its stiffness is multiplied by a law above 0.
+inline Sample<Bushing> driven_bushing_sample(Ends ends) {
+  Sample<Bushing> s = bushing_sample(ends);
+  s.name += ", with a factor";
+  s.element.factor = 2;
+  return s;
+}
+
 inline ConstraintRow row_of(RowKind kind, int i = 0, int j = 0, int law = -1, double constant = 0.0) {
   ConstraintRow r;
   r.kind = kind;
@@ -312,6 +320,7 @@ void for_all_couplings(const Check& check) {
     check(spring_sample(ends));
     check(undamped(spring_sample(ends)));
     check(bushing_sample(ends));
+    check(driven_bushing_sample(ends));
   }
 }
 template <class Check>

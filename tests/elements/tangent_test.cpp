@@ -1,6 +1,7 @@
 /// Tangents of all elements against the complex step of their residuals, in the sense of the time step.
 #include <gtest/gtest.h>
 
+#include "bough/elements/law_slope.hpp"
 #include "elements/check_element.hpp"
 
 namespace bough::elements::check {
@@ -39,6 +40,28 @@ TEST(ElementTangent, follows_velocity_and_acceleration_of_the_time_step) {
 
 TEST(ElementTangent, of_a_consistent_start_is_the_mass_and_the_rows_gradient) {
   for_all_elements([](const auto& s) { expect_tangent(s, true, Slopes{0.0, 0.0, true}); });
+}
+
+// Laws enter residuals linearly: the derivative by one is the change of the residual with 1 more of it.
+TEST(ElementTangent, by_a_law_is_the_change_of_the_residual_with_the_law) {
+  int found = 0;
+  for_all_elements([&found](const auto& s) {
+    SCOPED_TRACE(s.name);
+    int laws[max_laws];
+    for (int k = 0; k < list_laws(s.element, laws); ++k, ++found)
+      for (const bool has_inertia : {false, true}) {
+        const Field field = s.field(has_inertia, Slopes{3.1, 7.3, false});
+        const std::vector<double> before = residual_of(s, field);
+        std::vector<double> slope(before.size());
+        evaluate_law_slope(s.element, field, s.multipliers.data(), s.turns, laws[k], slope.data());
+        auto with_more = s;
+        with_more.laws[static_cast<std::size_t>(laws[k])] += 1.0;
+        std::vector<double> change = residual_of(with_more, with_more.field(has_inertia, field.slopes));
+        for (std::size_t i = 0; i < change.size(); ++i) change[i] -= before[i];
+        EXPECT_LE(relative_error(slope, change), exact) << "law " << laws[k];
+      }
+  });
+  EXPECT_GT(found, 30);
 }
 
 /// A frame that turns and moves every way it can.

@@ -318,5 +318,100 @@ TEST(DrivenParts, statics_press_a_stop_behind_a_gap) {
   EXPECT_NEAR(out.history.last("strain"), 25.0 * x * x + 200.0 * std::pow(x - 0.8, 2.5), 1e-9);
 }
 
+/// A body on a bushing along x and another about z, their stiffness times a factor: m x'' = -f k x, x = 0 at the start.
+std::string on_bushings(const std::string& factor, double k, double v0) {
+  const std::string stiffness = support::text(k), speed = support::text(v0);
+  return R"-({"analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.01},
+  "bodies": [{"name": "slider", "mass": 2, "inertia": [0.5, 0.6, 0.7]},
+    {"name": "wheel", "mass": 3, "inertia": [1.5, 1.6, 2], "position": [0, 1, 0]}],
+  "bushings": [
+    {"name": "axial", "first": "ground", "second": "slider", "stiffness": [)-" +
+         stiffness + ", 500, 500, 90, 90, 90], \"stiffness_factor\": " + factor + R"-(},
+    {"name": "torsional", "first": "ground", "second": "wheel", "stiffness": [900, 900, 900, 90, 90, )-" +
+         stiffness + "], \"stiffness_factor\": " + factor + R"-(}],
+  "initial_velocities": [{"of": "slider", "velocity": [)-" +
+         speed + R"-(, 0, 0]}, {"of": "wheel", "angular_velocity": [0, 0, )-" + speed + R"-(]}],
+  "signals": [{"name": "of_time", "kind": "time", "law": {"expression": "1/(1 + t)^2"}},
+    {"name": "s", "kind": "state", "expression": "-s^2", "start": 1},
+    {"name": "square", "kind": "formula", "expression": "s^2"},
+    {"name": "way", "kind": "position", "at": "slider", "axis": "x"}],
+  "sensors": [{"name": "at", "kind": "position", "at": "slider"}, {"name": "v", "kind": "velocity", "at": "slider"},
+    {"name": "turn", "kind": "rotation", "at": "wheel"}, {"name": "w", "kind": "velocity", "at": "wheel"},
+    {"name": "strain", "kind": "strain_energy"}, {"name": "all", "kind": "total_energy"}]})-";
+}
+
+/// A factor that falls as 1 / (1 + t)^2, with k = (mu^2 + 1/4) m:  x = b sqrt(1 + t) sin(mu ln(1 + t)), x'(0) = mu b.
+struct Softening {
+  static constexpr double m = 2.0, mu = 7.0, b = 0.1, k = (mu * mu + 0.25) * m, v0 = mu * b;
+  double x, v, strain, energy;
+  explicit Softening(double t) {
+    const double turn = mu * std::log(1.0 + t), root = std::sqrt(1.0 + t);
+    x = b * root * std::sin(turn);
+    v = b * (0.5 * std::sin(turn) + mu * std::cos(turn)) / root;
+    strain = 0.5 * k * x * x / ((1.0 + t) * (1.0 + t));
+    energy = strain + 0.5 * m * v * v;
+  }
+};
+
+// A law, a signal of time, and the square of a state s' = -s^2: the same factor, to the order of the motion.
+TEST(DrivenParts, a_bushing_softens_to_the_order_of_the_motion) {
+  const Softening end(1.0);
+  for (const std::string factor :
+       {R"-({"expression": "1/(1 + t)^2"})-", R"-({"signal": "of_time"})-", R"-({"signal": "square"})-"})
+    expect_order(on_bushings(factor, Softening::k, Softening::v0), 0.005,
+                 {{"at.x", end.x}, {"v.vx", end.v}, {"turn.rz", end.x}, {"w.wz", end.v}});
+}
+
+// A stiffness that falls takes energy, dE/dt = 1/2 k' x^2: the energies are those of the closed form, and the balance
+// closes to second order, that of its sums. The variational integrator agrees.
+TEST(DrivenParts, a_bushing_that_softens_balances_its_energy) {
+  const Softening end(1.0);
+  for (const char* integrator : {"generalized_alpha", "bdf", "variational"})
+    for (const char* without : {"[]", "[\"planar\"]"})
+      for (const std::string factor : {R"-({"expression": "1/(1 + t)^2"})-", R"-({"signal": "square"})-"}) {
+        SCOPED_TRACE(std::string(integrator) + " without " + without + factor);
+        const auto run = [&](double h) {
+          return run_ok(scene_of(on_bushings(factor, Softening::k, Softening::v0),
+                                 {std::string("/analysis/integrator=") + integrator, "/analysis/tolerance=1e-11",
+                                  std::string("/without=") + without, "/analysis/step_size=" + support::text(h)}));
+        };
+        const Outcome coarse = run(2e-3), fine = run(1e-3);
+        EXPECT_NEAR(fine.history.last("strain"), 2.0 * end.strain, 1e-3 * end.energy);
+        EXPECT_NEAR(fine.history.last("all"), 2.0 * end.energy, 1e-3 * end.energy);
+        EXPECT_GT(fine.history.first("all") - fine.history.last("all"), 0.4 * end.energy);
+        EXPECT_NEAR(std::log2(coarse.summary.checks.energy_balance / fine.summary.checks.energy_balance), 2.0, 0.2);
+        EXPECT_LT(fine.summary.checks.energy_balance, 1e-4 * fine.summary.checks.energy_scale);
+      }
+}
+
+// Statics: 20 N against 128 (1 + 3 x^2) x, the factor a formula of the place, with exact derivatives.
+TEST(DrivenParts, a_bushing_stiffens_with_its_way_in_statics) {
+  for (const char* without : {"[]", "[\"planar\"]"}) {
+    const Outcome out = run_ok(scene_of(R"-({"analysis": {"kind": "static", "tolerance": 1e-12},
+  "bodies": [{"name": "mass", "mass": 2, "inertia": [0.5, 0.5, 0.5]}],
+  "bushings": [{"name": "pad", "first": "ground", "second": "mass", "stiffness": [128, 90, 90, 9, 9, 9],
+    "stiffness_factor": {"signal": "factor"}}],
+  "loads": [{"at": "mass", "force": [20, 0, 0]}],
+  "signals": [{"name": "way", "kind": "position", "at": "mass", "axis": "x"},
+    {"name": "factor", "kind": "formula", "expression": "1 + 3*way^2"}],
+  "sensors": [{"name": "at", "kind": "position", "at": "mass"}, {"name": "strain", "kind": "strain_energy"}]})-",
+                                        {std::string("/without=") + without}));
+    double x = 0.1;
+    for (int k = 0; k < 50; ++k) x -= (128.0 * (x + 3.0 * x * x * x) - 20.0) / (128.0 * (1.0 + 9.0 * x * x));
+    EXPECT_NEAR(out.history.last("at.x"), x, 1e-12);
+    EXPECT_NEAR(out.history.last("strain"), 64.0 * (1.0 + 3.0 * x * x) * x * x, 1e-11);
+    EXPECT_LE(out.summary.steps.newton_iterations, 6);
+  }
+}
+
+// A factor does not scale the damping: with stiffness switched off a mass slows down as m v' = -c v.
+TEST(DrivenParts, a_factor_of_zero_leaves_the_damping_of_a_bushing) {
+  const Outcome out = run_ok(scene_of(on_bushings("0", Softening::k, 0.7),
+                                      {"/bushings/axial/damping=[3, 0, 0, 0, 0, 0]", "/analysis/step_size=1e-3"}));
+  EXPECT_NEAR(out.history.last("v.vx"), 0.7 * std::exp(-1.5), 1e-6);
+  EXPECT_NEAR(out.history.last("turn.rz"), 0.7, 1e-9);
+  EXPECT_EQ(out.history.last("strain"), 0.0);
+}
+
 }  // namespace
 }  // namespace bough::run

@@ -193,8 +193,9 @@ S eval_strain_energy(const SpringOn<G, C>& spring, const PortMotionOn<G, S>* p) 
 }
 
 /// Elastic and viscous coupling of all relative motions of two frames:  d = log(H_a^-1 H_b),
-///   F_b = T(d)^-T (K (d - d0) + D d'),  F_a = -Ad(H_ab^-1)^T F_b.
-/// Equivalent to a two-node beam of length 1 without mass.
+///   F_b = T(d)^-T (k K (d - d0) + D d'),  F_a = -Ad(H_ab^-1)^T F_b,
+/// with a factor k of the stiffness alone [-]: the value of a law, or 1. With k = 1 it is equivalent to a two-node beam
+/// of length 1 without mass.
 template <class G, class C = double>
 struct BushingOn {
   using Group = G;
@@ -204,6 +205,7 @@ struct BushingOn {
   typename G::template Matrix<C> stiffness, damping;
   typename G::template Vector<C> rest = G::template Vector<C>::zero();
   bool has_damping = false;
+  int factor = -1;  ///< the law that is k; -1: k = 1
 
   static constexpr Role role = Role::coupling;
   static constexpr Cost cost{240e-9, 870e-9, 33e-9, 184e-9};
@@ -215,6 +217,7 @@ struct BushingOn {
     visit.matrix(a.stiffness, b.stiffness);
     visit.matrix(a.damping, b.damping);
     visit.vector(a.rest, b.rest);
+    visit.law(a.factor, b.factor);
   }
 };
 template <class G, class C>
@@ -228,12 +231,22 @@ bool looks_at_rates(const BushingOn<G, C>& e) {
   return e.has_damping;
 }
 template <class G, class C>
-BOUGH_INLINE const typename G::template Vector<C>& rest_of(const BushingOn<G, C>& e) {
-  return e.rest;
+int stiffness_law(const BushingOn<G, C>& e) {
+  return e.factor;
 }
 template <class G, class C>
-BOUGH_INLINE C inverse_length(const BushingOn<G, C>&) {
-  return C(1.0);
+bool exchanges_energy(const BushingOn<G, C>& e) {
+  return dissipates(e) || e.factor >= 0;
+}
+
+/// The force conjugate to d,  n = k K (d - d0) + D d'.
+template <class G, class S, class C>
+BOUGH_INLINE typename G::template Wrench<S> eval_resultant(const BushingOn<G, C>& e, const ScrewRates<G, S>& r,
+                                                           const SurroundingsOn<G, S>& around, bool viscous) {
+  auto n = G::matrix_times(e.stiffness, G::strain(C(1.0), r.inverse.d, e.rest));
+  if (e.factor >= 0) n = G::scaled(around.laws[e.factor], n);
+  if (viscous) n = G::add(n, C(1.0), G::matrix_times(e.damping, r.rate));
+  return n;
 }
 
 /// Wrenches F_b = T(d)^-T n and F_a = ad(d)^T n - F_b of a coupling with the force n conjugate to d; returns F_b.
@@ -253,17 +266,24 @@ BOUGH_INLINE void eval_residual(const BushingOn<G, C>& bushing, const PortMotion
   const bool viscous = around.has_inertia && bushing.has_damping;
   ScrewRates<G, S> r;
   eval_screw_rates<G, S>(p, around, false, viscous, r);
-  const auto n = eval_screw_resultant<G, S>(bushing, r, viscous);
+  const auto n = eval_resultant<G, S>(bushing, r, around, viscous);
   put_screw_wrenches<G, S>(r, n, out);
 }
 
+/// Strain energy at k = 1: its derivative by k [J].
 template <class G, class S, class C>
-S eval_strain_energy(const BushingOn<G, C>& bushing, const PortMotionOn<G, S>* p) {
+S eval_energy_by_factor(const BushingOn<G, C>& bushing, const PortMotionOn<G, S>* p) {
   const auto inverse = motion::eval_log<G, S>(G::relative(p[0].H, p[1].H));
   typename G::template Vector<S> d = G::vector_of_motion(inverse.d);
   for (int k = 0; k < G::dof; ++k) d[k] = d[k] - bushing.rest[k];
   const typename G::template Vector<S> n = bushing.stiffness * d;
   return 0.5 * lanes::dot(d, n);
+}
+/// laws: values of all laws, used where one is the factor.
+template <class G, class S, class C>
+S eval_strain_energy(const BushingOn<G, C>& bushing, const PortMotionOn<G, S>* p, const Constant<S>* laws) {
+  const S energy = eval_energy_by_factor(bushing, p);
+  return bushing.factor < 0 ? energy : S(laws[bushing.factor] * energy);
 }
 
 }  // namespace bough::elements

@@ -73,7 +73,8 @@ void eval_port_momenta(const BeamRates<G, S, N>& b, const RateMomenta<G, S, N>& 
   eval_nodal_wrenches<G, S, N>(b, q, sum, momentum);
 }
 
-/// Includes the momentum tau K d' of the elastic inertia, d = log(H_a^-1 H_b).
+/// Includes the momentum tau K d' of the elastic inertia, d = log(H_a^-1 H_b), K the stiffness without its factor: what
+/// a law changes at will has no part in momenta.
 template <class G, class S, class C>
 void eval_momentum(const BushingOn<G, C>& bushing, const PortMotionOn<G, S>* ports, const SurroundingsOn<G, S>& around,
                    double elastic_inertia, S* momentum, S* force) {

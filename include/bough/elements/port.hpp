@@ -166,6 +166,12 @@ template <class E>
 bool exchanges_energy(const E& e) {
   return E::role == Role::load || dissipates(e);
 }
+/// The law by which the strain energy of an element is multiplied, -1: none. As it changes it does work, the energy at
+/// the value 1 times its change.
+template <class E>
+int stiffness_law(const E&) {
+  return -1;
+}
 
 /// Energies [J], power [W] and momentum of one element, for the balances of a run.
 struct Measures {
@@ -174,6 +180,7 @@ struct Measures {
   double potential = 0.0;                        ///< of gravity, about the inertial origin
   double work_rate = 0.0;                        ///< of loads, drives, efforts and of a ground that moves
   double dissipation_rate = 0.0;                 ///< taken by dampers, >= 0
+  double strain_by_law = 0.0;                    ///< derivative of the strain energy by stiffness_law [J]
   Vec6<double> momentum = Vec6<double>::zero();  ///< (linear; angular about the inertial origin), inertial axes
   Vec6<double> load =
       Vec6<double>::zero();  ///< resultant of gravity, loads and reactions of the ground, same point and axes

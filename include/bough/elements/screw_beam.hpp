@@ -83,9 +83,10 @@ template <class G, class C>
 BOUGH_INLINE C inverse_length(const BeamOn<G, 2, C>& beam) {
   return 1.0 / beam.length;
 }
-/// The force n conjugate to d of a two-node beam or of a bushing.
-template <class G, class S, class E>
-BOUGH_INLINE typename G::template Wrench<S> eval_screw_resultant(const E& e, const ScrewRates<G, S>& r, bool viscous) {
+/// The force n conjugate to d.
+template <class G, class S, class C>
+BOUGH_INLINE typename G::template Wrench<S> eval_screw_resultant(const BeamOn<G, 2, C>& e, const ScrewRates<G, S>& r,
+                                                                 bool viscous) {
   const auto inverse = inverse_length(e);
   auto n = G::matrix_times(e.stiffness, G::strain(inverse, r.inverse.d, rest_of(e)));
   if (viscous) n = G::add(n, inverse, G::matrix_times(e.damping, r.rate));

@@ -19,8 +19,8 @@ struct Energies {
 };
 
 /// Evaluates the elements of a plan that store energy or carry momentum, which are sorted into lanes once. Sums go over
-/// fixed chunks, so the bits do not depend on the number of threads. In scenes with moving frames, elements are
-/// evaluated one by one.
+/// fixed chunks, so the bits do not depend on the number of threads. In scenes with moving frames, and where a law
+/// changes their stiffness, elements are evaluated one by one.
 class EnergyMeter {
  public:
   explicit EnergyMeter(const plan::Plan& plan);

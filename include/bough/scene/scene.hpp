@@ -163,6 +163,8 @@ struct Bushing {
   Attachment first, second;
   Mat6 stiffness = Mat6::zero();
   Mat6 damping = Mat6::zero();
+  laws::Law factor;    ///< of the stiffness, over time (statics: over the load factor) [-]; none: 1
+  std::string signal;  ///< the signal that is the factor in place of the law; empty: none
 };
 
 enum class LoadAxes : std::uint8_t { space, body };  ///< space: dead load, fixed in space; body: follower load, which
