@@ -10,7 +10,8 @@ scenes, then all others of the labels unit and verification, up to the first tha
 reaches are built and run. The mutants follow from the seed: an interrupted call continues where its log ends. Mutants
 that do not compile are not counted. Each line of the log is a JSON object with the change and the test that failed, or
 null where none did; such survivors are to be explained, or to be given a test; those whose line is given an
-"equivalent" are not counted. A test has to fail twice. Where the machine is busy with other work, tests with limits of
+"equivalent" are not counted. A test has to fail twice. Mutants that only a limit of time ends are counted apart: no
+test has said that a result is wrong. Where the machine is busy with other work, tests with limits of
 time are to be skipped: --skip ^apps"""
 import argparse
 import json
@@ -224,8 +225,10 @@ def main():
         keep(record)
     suite.make([])
     tried = [r for r in done if counts(r)]
-    killed = sum(r["killed_by"] is not None for r in tried)
-    print(f"{killed} of {len(tried)} mutants killed, {len(done) - len(tried)} did not compile or change nothing")
+    late = sum((r["killed_by"] or "").endswith("(Timeout)") for r in tried)
+    killed = sum(r["killed_by"] is not None for r in tried) - late
+    print(f"{killed} of {len(tried)} mutants killed by a test that fails, {late} by a limit of time alone, "
+          f"{len(tried) - killed - late} survive; {len(done) - len(tried)} did not compile or change nothing")
 
 
 if __name__ == "__main__":
