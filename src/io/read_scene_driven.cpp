@@ -274,6 +274,7 @@ void Converter::actuator(const Value& v, const std::string& at) {
   state.kind = SignalKind::state;
   state.name = unused_signal_name(stem + "of_limit");
   state.inputs = {state.name, way.name, rate.name, target};
+  state.unit = "-";
   if (target_rate != target) state.inputs.push_back(target_rate);
   state.formula = laws::Formula(servo_text(v, state, way, rate, target, target_rate), state.inputs);
   state.start = start / limit;

@@ -84,6 +84,7 @@ class Converter : private ValueConverter {
   void take_in_units(const Value& v, const std::string& at, double nominal, scene::Signal& s);
   void reaction(const Value& component, const std::string& at, scene::Signal s);
   void signal(const Value& v, const std::string& at);
+  std::string unit_of(const Value& v, const std::string& at);
   laws::Law law_or_signal(const Value& v, const std::string& at, std::string& signal);
 
   // What signals drive and what is made of other parts (read_scene_driven.cpp).

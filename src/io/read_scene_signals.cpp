@@ -121,6 +121,7 @@ void Converter::take_in_units(const Value& v, const std::string& at, double nomi
   add_signal(std::move(in_units), at);
 }
 
+  in_units.unit = "-";
 /// A component of a reaction is the multiplier of a row with the sign changed, as an effort is; where its own sign is
 /// the other one, a formula turns it.
 void Converter::reaction(const Value& component, const std::string& at, scene::Signal s) {
@@ -145,6 +146,18 @@ void Converter::signal(const Value& v, const std::string& at) {
     fault(at + "/name", "a parameter has this name, and formulas would take its number");
   s.joint = text_or(v, "joint");
   if (const Value* component = v.find("component")) return reaction(*component, at, std::move(s));
+/// The unit that a signal declares, for people.
+std::string Converter::unit_of(const Value& v, const std::string& at) {
+  const std::string unit = text_or(v, "unit");
+  constexpr std::size_t most = 30;
+  const bool has_controls =
+      std::any_of(unit.begin(), unit.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; });
+  if (unit.size() > most || has_controls)
+    fault(at + "/unit", "is no unit",
+          "a unit is a word of at most " + std::to_string(most) + " characters, as Pa or m^3/s");
+  return unit;
+}
+
   s.kind = scene::signal_kind_named(v.find("kind")->text.str()).value();  // the schema takes no other names
   s.coordinate = text_or(v, "coordinate");
   s.spring = text_or(v, "spring");
@@ -160,6 +173,7 @@ void Converter::signal(const Value& v, const std::string& at) {
   }
   if (s.kind == SignalKind::spring_tension && springs_.count(s.spring) > 0 && joint_named(s.spring) != nullptr) {
     // A spring with more than constants: its tension is minus all that acts along its strut.
+  s.unit = unit_of(v, at);
     const auto known = effort_of_.find(s.spring);
     scene::Signal effort;
     effort.kind = SignalKind::joint_effort;

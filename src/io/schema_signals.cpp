@@ -49,6 +49,10 @@ std::vector<Field> keys_of(SignalField field) {
                   "Usual size of x, in its unit, in which it is integrated: step_control compares errors of x with "
                   "it, or with the largest x so far where that is more.",
                   "1")};
+    case SignalField::unit:
+      return {may("unit", text_rule("At most 30 characters."),
+                  "Unit of its value, shown with results; \"-\" for a pure number. Nothing is converted. Default: what "
+                  "follows from its formula, or from the effort or drive that it is.")};
   }
   return {};
 }

@@ -79,8 +79,9 @@ Dimension of_one(const Instruction& instruction, const Dimension& a) {
   }
 }
 
-std::string text_of(const Dimension& d) {
-  if (d.kind != Dimension::Kind::power_of_unit || d.power == 0.0) return {};
+std::optional<std::string> text_of(const Dimension& d) {
+  if (d.kind != Dimension::Kind::power_of_unit) return std::nullopt;
+  if (d.power == 0.0) return std::string();
   if (d.power == 1.0) return d.unit;
   char digits[32];
   const auto [end, status] = std::to_chars(digits, digits + sizeof digits, d.power);
@@ -126,9 +127,15 @@ T known_of(const Program& program, const Leaf& leaf) {
 
 }  // namespace
 
+std::optional<std::string> Formula::unit_if_known(std::span<const std::optional<std::string>> units) const {
+  return text_of(known_of<Dimension>(*program_, [&](const Instruction& i) {
+    return i.op == Op::variable && units[i.first] ? power_of(*units[i.first], 1.0) : number;
+  }));
+}
+
 std::string Formula::unit(std::span<const std::string> units) const {
-  return text_of(known_of<Dimension>(
-      *program_, [&](const Instruction& i) { return i.op == Op::variable ? power_of(units[i.first], 1.0) : number; }));
+  const std::vector<std::optional<std::string>> known(units.begin(), units.end());
+  return unit_if_known(known).value_or("");
 }
 
 bool Formula::is_zero_or_one() const {

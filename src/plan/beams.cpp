@@ -150,7 +150,10 @@ void Builder::add_sensors() {
     for (const scene::SensorComponent& c : scene::type_of(s.kind).components) p.components.push_back(c.name);
     p.beam = index_in(beam_of, s.beam);
     p.joint = index_in(joint_of, s.joint);
-    if (!s.signal.empty()) p.signal = law_of_signal.at(s.signal);
+    if (!s.signal.empty()) {
+      p.signal = law_of_signal.at(s.signal);
+      p.signal_unit = unit_of_signal.at(s.signal);
+    }
     if (!s.subdomain.empty()) p.subdomain = scene::read_path(s.subdomain).value();
     if (p.beam < 0 && scene::type_of(s.kind).of == scene::SensorOf::point) p.port = port_at(s.at);
     p.frame = port_at(s.frame, Frame<double>::identity());

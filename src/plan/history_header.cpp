@@ -14,7 +14,8 @@ records::HistoryHeader make_header(const Plan& plan) {
     for (std::size_t k = 0; k < s.components.size(); ++k) {
       const std::string& c = s.components[k];
       header.columns.push_back(c.empty() ? s.sensor.name : s.sensor.name + "." + c);
-      header.about.push_back({scene::unit_of(s.sensor, k), scene::to_string(s.sensor.kind), part});
+      header.about.push_back(
+          {s.signal < 0 ? scene::unit_of(s.sensor, k) : s.signal_unit, scene::to_string(s.sensor.kind), part});
     }
   }
   return header;

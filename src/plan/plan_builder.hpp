@@ -51,7 +51,8 @@ struct Builder {
   std::map<std::string, int> carrier_of;                     ///< frames that move in the ground, in Plan::frames
   std::map<std::string, motion::Frame<double>> frame_start;  ///< pose of every frame in the ground
   FrameMotions start_motions;
-  std::unordered_map<std::string, int> law_of_signal;        ///< by name: place among the values of laws
+  std::unordered_map<std::string, int> law_of_signal;           ///< by name: place among the values of laws
+  std::unordered_map<std::string, std::string> unit_of_signal;  ///< by name; empty: a pure number, or not known
   std::map<std::string, motion::Frame<double>> part_offset;  ///< pose of a named part relative to the node to which it
                                                              ///< is welded
   std::vector<std::pair<int, motion::Vec3<double>>> spinless;  ///< nodes that do not spin about a line of their own

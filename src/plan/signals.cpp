@@ -53,13 +53,16 @@ std::unordered_map<std::string_view, const T*> by_name(const std::vector<T>& lis
 }  // namespace
 
 void Builder::add_signal_laws() {
+  const std::vector<std::optional<std::string>> units = scene::units_of_signals(scene);
   for (const std::size_t i : scene::order_of_signals(scene)) {
     const scene::Signal& s = scene.signals[i];
     law_of_signal[s.name] = add_law(s.law, "signal " + s.name);
+    unit_of_signal[s.name] = units[i].value_or("");
     if (s.kind == scene::SignalKind::time) continue;
     plan.laws.back().law = {};  // a function's law is not one of time
     SignalPlan p;
     p.name = s.name;
+    p.unit = unit_of_signal[s.name];
     p.rule = rule_of(s.kind);
     p.law = law_of_signal[s.name];
     p.start = s.start;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/scene/sensor_kinds.hpp"
+
 namespace bough::run {
 
 using scene::MeasureKind;
@@ -123,9 +125,9 @@ std::optional<double> figure_of(const scene::Measure& m, const Series& s) {
 
 namespace {
 
-/// unit_of_quantity: of those that the measure names.
+/// unit_of_quantity: of those that the measure names; nothing where it is not known.
 std::string unit_of(const scene::Measure& measure, const records::HistoryHeader& header,
-                    const std::function<std::string(const std::string&)>& unit_of_quantity) {
+                    const std::function<std::optional<std::string>(const std::string&)>& unit_of_quantity) {
   switch (measure.kind) {
     case MeasureKind::time_of_max:
     case MeasureKind::time_of_min:
@@ -146,25 +148,30 @@ std::string unit_of(const scene::Measure& measure, const records::HistoryHeader&
     case MeasureKind::equivalent_range:
       break;
   }
-  if (measure.expression.empty()) return unit_of_quantity(measure.quantity);
-  std::vector<std::string> names, units;
+  if (measure.expression.empty()) return unit_of_quantity(measure.quantity).value_or("");
+  std::vector<std::string> names;
+  std::vector<std::optional<std::string>> units;
   for (const auto& [name, column] : measure.names) {
     names.push_back(name);
     units.push_back(unit_of_quantity(column));
   }
-  return laws::Formula(measure.expression, names).unit(units);
+  return laws::Formula(measure.expression, names).unit_if_known(units).value_or("");
 }
 
 }  // namespace
 
 std::vector<std::string> units_of_measures(const scene::Scene& scene, const records::HistoryHeader& header) {
   std::vector<std::string> units;
-  const auto unit_of_column = [&](const std::string& name) {
+  const std::string of_signals = scene::to_string(scene::SensorKind::signal);
+  const auto unit_of_column = [&](const std::string& name) -> std::optional<std::string> {
     const auto at = static_cast<std::size_t>(std::find(header.columns.begin(), header.columns.end(), name) -
                                              header.columns.begin());
-    return at < header.about.size() ? header.about[at].unit : std::string();
+    if (at >= header.about.size()) return std::string();
+    const records::HistoryHeader::About& about = header.about[at];
+    if (about.unit.empty() && about.quantity == of_signals) return std::nullopt;  // pure, or not known
+    return about.unit;
   };
-  const auto unit_of_measure = [&](const std::string& name) {
+  const auto unit_of_measure = [&](const std::string& name) -> std::optional<std::string> {
     for (std::size_t k = 0; k < units.size(); ++k)
       if (scene.measures[k].name == name) return units[k];
     return std::string();

@@ -117,7 +117,7 @@ std::vector<SensorType> make_types() {
        in("m", {"x", "y", "z"}),
        {F::axes_of},
        "Position of a point from the origin of another part, in the axes of that part, which is given as `frame`."},
-      {SensorKind::signal, "signal", SensorOf::signal, force, in("", {""}), {}, "Value of a signal, in its own unit."},
+      {SensorKind::signal, "signal", SensorOf::signal, force, in("its own", {""}), {}, "Value of a signal."},
       {SensorKind::interface_force,
        "interface_force",
        subdomain,

@@ -84,6 +84,21 @@ TEST(Formula, a_unit_that_does_not_follow_is_not_told) {
     EXPECT_EQ(unit(formula), "") << formula;
 }
 
+// What has an unknown unit is taken as a number is: it has the unit of the other side of a sum.
+TEST(Formula, units_follow_where_some_of_them_are_not_known) {
+  const std::vector<std::string> names = {"x", "a", "n"};
+  const std::vector<std::optional<std::string>> units = {"m", std::nullopt, ""};
+  const auto known = [&](const std::string& formula) {
+    return Formula(formula, names).unit_if_known(units).value_or("?");
+  };
+  EXPECT_EQ(known("x - a"), "m");
+  EXPECT_EQ(known("n*x"), "m");
+  EXPECT_EQ(known("x/x"), "");
+  EXPECT_EQ(known("sin(a)"), "");
+  for (const char* formula : {"a", "a*x", "a*n", "x + a^2*x", "3", "sqrt(a)"})
+    EXPECT_EQ(known(formula), "?") << formula;
+}
+
 TEST(Formula, what_is_always_0_or_1_is_found_by_its_form) {
   const std::vector<std::string> names = {"x", "y"};
   for (const char* formula : {"step(x)", "step(x - 1)*step(2 - x)", "1 - step(x)", "max(step(x), step(y), 0)", "1",

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,6 +48,9 @@ class Formula {
   /// value is a pure number, or if its unit does not follow: sides of sums, min and max have one unit, which numbers
   /// in them take; numbers in products with a unit may have one of their own, so that 2*x has none that is known.
   [[nodiscard]] std::string unit(std::span<const std::string> units) const;
+  /// The same where the units of some variables are not known (nothing), which are then taken as those of numbers are;
+  /// nothing if the unit does not follow.
+  [[nodiscard]] std::optional<std::string> unit_if_known(std::span<const std::optional<std::string>> units) const;
   /// Whether the value, where it is finite, is 0 or 1 whatever the variables are: made of `step`, products, min, max,
   /// and 1 minus such.
   [[nodiscard]] bool is_zero_or_one() const;

@@ -145,6 +145,7 @@ enum class SignalRule : std::uint8_t {
 /// alone.
 struct SignalPlan {
   std::string name;
+  std::string unit;  ///< empty: a pure number, or not known
   SignalRule rule = SignalRule::formula;
   int law = -1;      ///< its place among the values of laws, where elements and other signals read it
   int element = -1;  ///< of the block graph, after those of the directory
@@ -179,6 +180,7 @@ struct SensorPlan {
   int beam = -1;                        ///< index in Plan::beams
   int joint = -1;                       ///< index in Plan::joints (reaction, coordinate)
   int signal = -1;                      ///< its place among the values of laws
+  std::string signal_unit;              ///< empty: a pure number, or not known
   std::vector<int> subdomain;           ///< the child to take at each level of the tree of the solver
   motion::RowKind coordinate = {};      ///< of the joint, if that is measured
   elements::Port frame;                 ///< port of the frame of the observer, or in whose axes the result is resolved

@@ -249,6 +249,7 @@ struct Signal {
   laws::Formula formula;            ///< formula, state: in the values of `inputs`
   std::vector<std::string> inputs;  ///< names of signals
   double start = 0.0;               ///< state: at the start of dynamics; input: until it is set
+  std::string unit;                 ///< of its value, for results; "-": a pure number; empty: it is derived
 };
 
 enum class SensorKind : std::uint8_t {

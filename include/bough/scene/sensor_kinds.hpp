@@ -68,7 +68,8 @@ std::string components_text(const SensorType& type);
 
 /// Names of the components of a sensor in the order of its columns; empty for a scalar.
 std::vector<std::string> components_of(SensorKind kind);
-/// Unit of a component of a sensor, by its place; empty: a pure number. The coordinate of a joint has to be named.
+/// Unit of a component of a sensor, by its place; empty: a pure number. The coordinate of a joint has to be named. That of
+/// a signal is in units_of_signals.
 std::string unit_of(const Sensor& sensor, std::size_t component);
 /// The children to take from the root, of a path as "0.1"; nothing where it is none.
 std::optional<std::vector<int>> read_path(const std::string& path);

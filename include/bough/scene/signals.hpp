@@ -26,6 +26,7 @@ enum class SignalField : std::uint8_t {
   expression,
   start,
   nominal,
+  unit,
 };
 
 struct SignalType {
@@ -81,6 +82,12 @@ std::vector<int> levels_of_signals(const Scene& scene);
 /// For each signal, the signals of whose present values it is made, as indices: its inputs, none for a state, and for an
 /// effort the signals that drive it along the coordinate.
 std::vector<std::vector<std::size_t>> present_inputs(const Scene& scene);
+
+/// The unit of each signal: the declared one ("-": a pure number, here empty), otherwise that of what it reads, of its
+/// formula from those of its inputs (of a state times s), or of the effort, drive or prescribed motion that it drives.
+/// Nothing where none follows: of laws, tables and inputs that drive nothing of these, and of formulas with numbers that
+/// have units of their own, as gains have.
+std::vector<std::optional<std::string>> units_of_signals(const Scene& scene);
 
 /// Indices of all signals, each after those of whose present values it is made; a state is made of none. The signals of
 /// a circle are missing. An input that is no signal counts as known.
