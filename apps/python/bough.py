@@ -73,7 +73,7 @@ class Run:
         return [c for c in self.columns if c.rpartition(".")[0] == sensor]
 
     def unit(self, column):
-        """Unit of a column, "" for a pure number."""
+        """Unit of a column, "" for a pure number and for a signal whose unit is not known."""
         return self._about.get(column, {}).get("unit", "")
 
     def label(self, column):
@@ -100,7 +100,8 @@ class Motion:
     times: (n,); curves: {name: (n, points, 3)} places along beams [m], bodies: {name: (n, 3)} centres of mass [m];
     forces, strains: {name: (n, points, 6)} along beams, (N, Q2, Q3, T, M2, M3) and (e1, g2, g3, k1, k2, k3);
     velocities: {name: (n, points, 3) or (n, 3)}; rotations: the same of rotation vectors from the start, in space;
-    links: {name: (n, 2, 3)} both sides of joints and springs; signals: {name: (n,)} that change with the motion.
+    links: {name: (n, 2, 3)} both sides of joints and springs; signals: {name: (n,)} that change with the motion;
+    signal_units: {name: unit}, empty for a pure number and where it is not known.
     """
 
     def __init__(self, path):
@@ -150,7 +151,9 @@ class Motion:
             at += 9
             self.links[link["name"]] = block[:, :6].reshape(count, 2, 3) + start["links", link["name"]][:6].reshape(2, 3)
         at += 6 * len(header["frames"]) + 9 * len(header["arrows"])
-        self.signals = {name: values[:, at + k] for k, name in enumerate(header.get("signals", []))}
+        names = header.get("signals", [])
+        self.signals = {name: values[:, at + k] for k, name in enumerate(names)}
+        self.signal_units = dict(zip(names, header.get("signal_units", [])))
 
 
 def read_npy(path, columns=None):

@@ -76,7 +76,13 @@ std::string header_of(const records::MotionParts& parts, const records::MotionFr
     json += "{\"name\":" + json_string(f.arrows[k].name) + ",\"kind\":\"" +
             (f.arrows[k].is_per_length ? "line load" : "load") + "\"}";
   });
-  if (!f.signals.empty()) append_names(json, "signals", f.signals);
+  if (!f.signals.empty()) {
+    append_names(json, "signals", f.signals);
+    json += ",\"signal_units\":";
+    append_list(json, f.signals, [&](std::size_t k) {
+      json += json_string(k < parts.signal_units.size() ? parts.signal_units[k] : "");
+    });
+  }
   json += ",\"outlines\":";
   append_list(json, parts.outlines, [&](std::size_t k) {
     const auto& loops = parts.outlines[k].loops;

@@ -106,6 +106,8 @@ records::MotionFrame read_header(HeaderReader& r, records::MotionParts& parts) {
   }
   if (r.header.find("signals") != nullptr)
     for (const JsonValue* v : r.list(r.header, "signals")) f.signals.push_back({r.text(v)});
+  if (r.header.find("signal_units") != nullptr)
+    for (const JsonValue* v : r.list(r.header, "signal_units")) parts.signal_units.push_back(r.text(v));
   return f;
 }
 

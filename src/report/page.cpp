@@ -5,6 +5,7 @@
 
 #include "bough/io/columns.hpp"
 #include "bough/io/motion_frames.hpp"
+#include "bough/io/number_text.hpp"
 #include "bough/report/document.hpp"
 #include "bough/report/plot.hpp"
 #include "round_off.hpp"
@@ -38,6 +39,34 @@ void add_motion(Document& page, const RunFiles& run, const PictureOptions& optio
   page.markup(
       "<div id=\"viewer\" hidden></div>\n<p id=\"no-webgl\" class=\"lead\" hidden></p>\n<figure id=\"motion\">\n" +
       make_picture(run.motion, options).svg + "</figure>\n");
+}
+
+/// Signals with their values in the last picture. The script shows those at the time of the picture.
+void add_signals(Document& page, const RunFiles& run, const RunFiles* other) {
+  const std::size_t count = num_signals_shown(run);
+  if (count == 0) return;
+  const auto& signals = run.motion.back().signals;
+  const auto value_of = [](double value) {
+    std::string text;
+    io::append_rounded(text, value, 5);
+    return "<output>" + text + "</output>";
+  };
+  const auto value_in_other = [&](const std::string& name) -> std::string {
+    if (other->motion.empty()) return "<output>–</output>";
+    const auto& list = other->motion.back().signals;
+    const auto same = std::find_if(list.begin(), list.end(), [&](const auto& s) { return s.name == name; });
+    return same == list.end() ? "<output>–</output>" : value_of(same->value);
+  };
+  page.section("Signals");
+  std::string html = "<p id=\"signals-at\" class=\"lead\">At the end</p>\n<div id=\"signals\" class=\"signals\">\n";
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::string unit = k < run.parts.signal_units.size() ? run.parts.signal_units[k] : std::string();
+    html += "<p><span>" + escaped(signals[k].name) + (unit.empty() ? "" : " [" + escaped(unit) + "]") + "</span> " +
+            value_of(signals[k].value) + (other != nullptr ? " " + value_in_other(signals[k].name) : "") + "</p>\n";
+  }
+  page.markup(html + "</div>\n");
+  if (signals.size() > count)
+    page.paragraph(std::to_string(signals.size() - count) + " more signals are in motion.bin.", Tone::soft);
 }
 
 void add_plots(Document& page, const RunFiles& run) {
@@ -190,6 +219,7 @@ std::string page_html(const RunFiles& run, const PictureOptions& options, const 
   if (other != nullptr)
     page.paragraph("A: " + what_ran(run) + ". B, dashed and in orange: " + what_ran(*other) + ".", Tone::soft);
   add_motion(page, run, options);
+  add_signals(page, run, other);
   add_plots(page, run);
   if (run.summary) {
     add_expected(page, run.summary->expected);

@@ -31,6 +31,8 @@ summary{cursor:pointer;margin:8px 0}
 .plot .reading{display:flex;flex-wrap:wrap;gap:0 10px}.key i{display:inline-block;width:14px;border-top:3px solid;vertical-align:middle;margin-right:4px}.key i.dashed{border-top-style:dashed}
 .key.s0 i{color:#2a78d6}.key.s1 i{color:#eb6834}.key.s2 i{color:#1baf7a}.key.s3 i{color:#4a3aa7}.key.s4 i{color:#e87ba4}.key.s5 i{color:#c98500}
 .band{fill:#2a78d6;opacity:.15}
+.signals{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,220px),1fr));gap:0 18px}
+.signals p{display:flex;gap:10px;justify-content:space-between;border-bottom:1px solid #d9d8d1}.signals span{min-width:0;overflow-wrap:anywhere}.signals output{min-width:0;white-space:nowrap}.signals output+output{color:#b4501f}
 table{border-collapse:collapse;font-variant-numeric:tabular-nums}td,th{padding:3px 14px 3px 0;text-align:left;border-bottom:1px solid #d9d8d1}
 .wide{overflow-x:auto}ul{margin:4px 0;padding-left:20px}
 .charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,340px),1fr));gap:12px;margin:8px 0}
@@ -39,7 +41,7 @@ td.number,th.number{text-align:right}td.number{white-space:nowrap}td:first-child
 tr.chosen td{background:#fbe3d8}th button{min-width:0;padding:0;border:0;background:none;font-weight:600;color:inherit;cursor:pointer}
 #cases td{cursor:default}
 @media screen and (max-width:640px){figure,#scatter{overflow-x:auto}svg[viewBox^="0 0 960"]{min-width:640px}}
-@media (prefers-color-scheme:dark){.cards td::before{color:#c3c2b7!important}tr.chosen td{background:#5a2f1c}body{background:#0d0d0d;color:#fff}.lead,.reading{color:#c3c2b7}td,th{border-color:#383835}
+@media (prefers-color-scheme:dark){.cards td::before{color:#c3c2b7!important}tr.chosen td{background:#5a2f1c}body{background:#0d0d0d;color:#fff}.lead,.reading{color:#c3c2b7}td,th,.signals p{border-color:#383835}.signals output+output{color:#eb6834}
 .plot{background:#1a1a19}.plot.lit{outline-color:#f2b632}.plot-tools{color:#c3c2b7}.legend{background:#1a1a19cc}.key.s3 i{color:#9085e9}.tip{background:#fff;color:#0b0b0b}
 caption,figcaption,.soft-text{color:#c3c2b7}.good{color:#5ad0a5}.bad{color:#ff8a80}a{color:#86b6ef}}
 @media print{#viewer,.plot-tools,.has-view #no-webgl{display:none}.has-view #motion{display:block}.plot,.plot.lit{outline:0;background:none}

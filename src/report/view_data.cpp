@@ -255,7 +255,7 @@ class MotionData {
 
   std::string json(Arrays& arrays) {
     Tracks tracks(frames_, middle_);
-    std::string text = curves(tracks, arrays) + bodies(tracks, arrays) + others(tracks, arrays);
+    std::string text = curves(tracks, arrays) + bodies(tracks, arrays) + others(tracks, arrays) + signals(arrays);
     tracks.write(arrays);
     std::vector<double> times;
     for (const MotionFrame* f : frames_) times.push_back(f->time);
@@ -414,6 +414,17 @@ class MotionData {
            });
   }
 
+  std::string signals(Arrays& arrays) const {
+    const std::size_t count = num_signals_shown(run_);
+    std::vector<float> values;
+    for (std::size_t k = 0; k < count; ++k)
+      for (const MotionFrame* f : frames_) values.push_back(static_cast<float>(f->signals[k].value));
+    arrays.add("signals", "f32", values);
+    return ",\"signals\":" + list_of(std::vector<int>(count), [&](std::size_t k) {
+             return "{\"name\":" + io::json_string(frames_.front()->signals[k].name) + "}";
+           });
+  }
+
   const RunFiles& run_;
   std::vector<const MotionFrame*> frames_;
   bool with_strains_;
@@ -423,6 +434,11 @@ class MotionData {
 };
 
 }  // namespace
+
+std::size_t num_signals_shown(const RunFiles& run) {
+  constexpr std::size_t most = 200;
+  return run.motion.empty() ? 0 : std::min(most, run.motion.front().signals.size());
+}
 
 std::string view_data(const RunFiles& run, std::size_t most_bytes) {
   std::vector<const MotionFrame*> frames;
@@ -437,9 +453,10 @@ std::string view_data(const RunFiles& run, std::size_t most_bytes) {
   for (bool with_strains = num_points <= many_points;; with_strains = false) {
     Arrays arrays;
     const std::string plots = plot_data(run.history, round_off_of(run), arrays);
-    const std::string motion = frames.empty()
-                                   ? "\"times\":[],\"curves\":[],\"bodies\":[],\"links\":[],\"frames\":[],\"arrows\":[]"
-                                   : MotionData(run, frames, with_strains).json(arrays);
+    const std::string motion =
+        frames.empty()
+            ? "\"times\":[],\"curves\":[],\"bodies\":[],\"links\":[],\"frames\":[],\"arrows\":[],\"signals\":[]"
+            : MotionData(run, frames, with_strains).json(arrays);
     const std::string packed = deflated(arrays.bytes());
     if (packed.size() <= most_bytes || frames.size() <= 2)
       return head + motion + ",\"plots\":" + plots + ",\"arrays\":" + arrays.list() + ",\"packed\":\"" +

@@ -7,6 +7,7 @@
 ///    "links":[{"name","kind","first","second","axes":[4]}],"frames":[{"name","track","axes":[4]}],"arrows":[{"name","track"}],
 ///    "outlines":[[[x2,x3,...] per
 ///      loop]],"meshes":[{"points","triangles"}],"quantities":[{"name","label","unit","low","high"}],
+///    "signals":[{"name"}], their values in the array "signals", those of a signal one after another,
 ///    "plots":[{"title","unit","part","times":array,"columns":[{"label","values":array}]}],
 ///    "arrays":{name:[type,offset,count]},"packed":base64 of zlib}
 ///
@@ -18,6 +19,9 @@
 #include "bough/report/page.hpp"
 
 namespace bough::report {
+
+/// How many signals a page lists: the first ones of the pictures, which all have the same.
+std::size_t num_signals_shown(const RunFiles& run);
 
 /// Every second frame is omitted, repeatedly, until the packed numbers are below `most_bytes`.
 std::string view_data(const RunFiles& run, std::size_t most_bytes = 13'500'000);

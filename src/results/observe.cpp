@@ -403,6 +403,7 @@ records::MotionParts make_parts(const scene::Scene& scene, const step::System& s
     if (is_new) parts.meshes.push_back(std::move(*mesh));
   }
   for (const plan::BodyPlan& body : plan.bodies) parts.bodies.push_back(body_of.at(body.name));
+  for (const plan::SignalPlan& signal : plan.signals) parts.signal_units.push_back(signal.unit);
   std::map<std::string, std::string> kind_of;
   for (const scene::Joint& j : scene.joints) kind_of[j.name] = scene::to_string(j.kind);
   for (const scene::Spring& s : scene.springs)

@@ -38,6 +38,14 @@ PARTS = {
     "sensors": [{"name": "reaction of the wall on the root of the beam", "kind": "joint_reaction", "joint": "wall"}],
     "analysis": {"kind": "dynamic", "end_time": 0.012345, "step_size": 1e-3}, "output": {"motion": True},
 }
+# Signals with units that follow, that are declared and that nobody knows.
+SIGNALS = {
+    **PARTS, "analysis": {"kind": "dynamic", "end_time": 0.5, "step_size": 5e-3},
+    "signals": [{"name": "turn", "kind": "joint_angle", "joint": "hinge"},
+                {"name": "twice", "kind": "formula", "expression": "2*turn"},
+                {"name": "pressure", "kind": "formula", "expression": "3*turn + 1", "unit": "<i>Pa"}],
+    "sensors": [{"name": name, "kind": "signal", "signal": name} for name in ("turn", "twice", "pressure")],
+}
 NAMES = {
     "schema_version": 1, "title": "</script><script>wasCalled=1</script><img src=x onerror=wasCalled=1>" + "t" * 300,
     "gravity": [0, 0, -9.81],
@@ -106,6 +114,13 @@ def make_pages():
     make_view("softer", PARTS, "--set", "/springs/coil/stiffness=20")
     call("view", "softer", "parts")
     pages.append("softer/view.html")
+    pages.append(make_view("signals", SIGNALS))
+    make_view("of_signals", {**SIGNALS, "signals": SIGNALS["signals"][:2], "sensors": SIGNALS["sensors"][:2]},
+              "--set", "/springs/coil/stiffness=20")
+    call("view", "signals", "of_signals")
+    os.rename("signals/view.html", "signals/both.html")
+    call("view", "signals")
+    pages.append("signals/both.html")
     call("stress", "--case", "condition", "--out", "stress", "--quiet")
     for name in ("princeton_beam", "four_bar"):
         call("study", SOURCE / f"data/studies/{name}.json", "--out", f"study_{name}", "--threads", 2,
@@ -236,6 +251,33 @@ def check_pairs(chromium, page):
     return faults + chromium.faults
 
 
+def check_signals(chromium, page, runs):
+    """The list of signals shows the values of the history at the time of the picture, with units, of all runs."""
+    faults = []
+    see = """new Promise(function (done) {
+      boughView.setTime(%s);
+      setTimeout(() => done([document.getElementById("signals-at").textContent,
+        Array.from(document.querySelectorAll("#signals p")).map((p) => [p.querySelector("span").textContent,
+          Array.from(p.querySelectorAll("output")).map((o) => o.textContent)])]), 300); })"""
+    chromium.open(page)
+    labels = ["turn [rad]", "twice", "pressure [<i>Pa]"]
+    for time in (0.0, 0.25, 0.5):
+        line, rows = chromium.evaluate(see % time)
+        if line != f"At t = {time:g} s" or [label for label, _ in rows] != labels:
+            faults.append(f"{page}: the list of signals says {line}: {rows}")
+            continue
+        for run, folder in enumerate(runs):
+            with open(f"{folder}/history.csv", encoding="utf-8", newline="") as file:
+                history = list(csv.DictReader(file))
+            row = min(history, key=lambda r: abs(float(r["time"]) - time))
+            for label, shown in rows:
+                value = row.get(label.split()[0])
+                right = shown[run] == "–" if value is None else abs(float(shown[run]) - float(value)) <= 1e-4 * abs(float(value))
+                if not right or len(shown) != len(runs):
+                    faults.append(f"{page}: {label} at {time} s is shown as {shown}, and is {value} in {folder}")
+    return faults + chromium.faults
+
+
 def check_maps(chromium, page):
     chromium.open(page)
     return chromium.evaluate((SOURCE / "tests/tools/view_maps.js").read_text(encoding="utf-8"))
@@ -265,6 +307,8 @@ def main():
                 "far travel": check_far(chromium, "far/view.html"),
                 "zero": check_zero(chromium, "roll_up/view.html", 1) + check_zero(chromium, "swing/view.html", 0),
                 "two runs": check_pairs(chromium, "softer/view.html"),
+                "signals": check_signals(chromium, "signals/view.html", ["signals"]) +
+                           check_signals(chromium, "signals/both.html", ["signals", "of_signals"]),
                 "maps of colours": check_maps(chromium, "robot_arm/view.html")}
         for name, found in more.items():
             print(f"{name}: {len(found)} faults")

@@ -66,6 +66,7 @@ def main():
     assert numpy.abs(motion.velocities['ball, "heavy"'] - run["ball speed"][:, :3]).max() < 1e-6
     assert numpy.abs(motion.curves["bar"][:, -1] - run["ball"]).max() < 1e-7
     assert numpy.abs(motion.signals["height"] - run["ball.z"]).max() < 1e-7
+    assert motion.signal_units == {"height": "m"}
     scale = numpy.abs(run["root force"]).max()
     assert numpy.abs(motion.forces["bar"][:, 0] - run["root force"]).max() < 1e-6 * scale
     whole = (folder / "out/motion.bin").read_bytes()

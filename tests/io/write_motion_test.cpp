@@ -156,6 +156,7 @@ TEST(MotionFile, frames_come_back_to_single_precision_of_their_displacements) {
   parts.curves = {{0, {3, 1, 4, 1}}};
   parts.bodies = {0};
   parts.links = {{"revolute"}};
+  parts.signal_units = {"N m", ""};
   MotionWriter writer(scratch / "motion.bin", parts);
   const double far = 1e6;  // where a displacement of a micrometre would be lost in single precision
   const auto moved = [&](int k) {
@@ -171,6 +172,7 @@ TEST(MotionFile, frames_come_back_to_single_precision_of_their_displacements) {
   ASSERT_EQ(motion.frames.size(), 4u);
   EXPECT_EQ(motion.parts.curves.at(0).subdomains, parts.curves[0].subdomains);
   EXPECT_EQ(motion.parts.links.at(0).kind, "revolute");
+  EXPECT_EQ(motion.parts.signal_units, parts.signal_units);
   EXPECT_EQ(motion.parts.outlines.at(0).loops, parts.outlines[0].loops);
   EXPECT_EQ(motion.parts.meshes.at(0).points, parts.meshes[0].points);
   EXPECT_EQ(motion.parts.meshes.at(0).triangles, parts.meshes[0].triangles);

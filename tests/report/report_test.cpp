@@ -247,6 +247,26 @@ TEST_F(Page, of_a_path_whose_load_factor_turns_back_counts_steps) {
   EXPECT_NE(html.find("position at step"), std::string::npos);
 }
 
+TEST_F(Page, lists_signals_with_units_and_their_values_at_the_end) {
+  RunFiles run = written(true);
+  EXPECT_EQ(page_html(run, {}).find("id=\"signals\""), std::string::npos) << "of a run that has some";
+  run.parts.signal_units = {"N m", "<Pa>"};
+  for (std::size_t k = 0; k < run.motion.size(); ++k) {
+    run.motion[k].signals = {{"torque", 0.5 * static_cast<double>(k)}, {"pressure", -1.25}};
+    for (int more = 0; more < 205; ++more) run.motion[k].signals.push_back({"more" + std::to_string(more), 7.0});
+  }
+  RunFiles other = run;
+  for (records::MotionFrame& frame : other.motion) frame.signals = {{"pressure", 3.5}};
+  const std::string html = without_script(page_html(run, {}));
+  EXPECT_NE(html.find("<p><span>torque [N m]</span> <output>2</output></p>"), std::string::npos);
+  EXPECT_NE(html.find("<p><span>pressure [&lt;Pa&gt;]</span> <output>-1.25</output></p>"), std::string::npos);
+  EXPECT_EQ(count_of(html, "<output>"), 200u);
+  EXPECT_NE(html.find("7 more signals are in motion.bin"), std::string::npos);
+  const std::string both = without_script(page_html(run, {}, &other));
+  EXPECT_NE(both.find("<span>torque [N m]</span> <output>2</output> <output>–</output>"), std::string::npos);
+  EXPECT_NE(both.find("</span> <output>-1.25</output> <output>3.5</output>"), std::string::npos);
+}
+
 TEST_F(Page, stands_alone_and_asks_for_nothing_from_elsewhere) {
   const std::string html = without_script(page_html(written(true), {}));
   EXPECT_EQ(count_of(html, "http://"), count_of(html, "http://www.w3.org/2000/svg")) << "names of formats only";

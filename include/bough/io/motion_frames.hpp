@@ -3,7 +3,7 @@
 /// bytes:
 ///   {"format":"bough motion 3","frame_floats":n,"curves":[{"name","points","outline","subdomains"}],
 ///    "bodies":[{"name","attachments","mesh"}],"links":[{"name","kind"}],"frames":[name],"arrows":[{"name","kind"}],
-///    "signals":[name] (if there are any),
+///    "signals":[name],"signal_units":[unit] (if there are any; a unit is empty where it is not known),
 ///    "outlines":[[[x2,x3,x2,x3,...] per loop]],"meshes":[{"points":[x,y,z,...],"triangles":[a,b,c,...]}]}
 /// then binary numbers, little-endian, without gaps. First the start, float64:
 ///   curve point: position 3, axes 9 (row-major, columns are axes) | body: centre 3, axes 9, position 3, attachments

@@ -16,7 +16,7 @@ struct HistoryHeader {
   std::vector<std::string> columns;  ///< "<sensor>.<component>" or "<sensor>"
   /// What a column shows, in the order of `columns`; empty if not known.
   struct About {
-    std::string unit;      ///< "m", "rad/s", ...; empty: a pure number
+    std::string unit;      ///< "m", "rad/s", ...; empty: a pure number, or, of a signal, not known
     std::string quantity;  ///< the kind of its sensor
     std::string part;      ///< node, body, beam or joint that is measured; empty: the whole structure
   };
@@ -99,6 +99,7 @@ struct MotionParts {
   std::vector<Curve> curves;
   std::vector<int> bodies;  ///< surface of each, in `meshes`; -1: it has no shape
   std::vector<Link> links;
+  std::vector<std::string> signal_units = {};  ///< empty: a pure number, or not known
 };
 
 enum class RunStatus : std::uint8_t { ok, failed, interrupted };

@@ -21,6 +21,7 @@ async function startView() {
   const view = {runs: runs, state: state, calm: calm};
   window.boughView = view;
   startPlots(view);
+  startSignals(view);
   if (!first.times.length || !first.data.step || !first.data.step.length) return showDrawing("");
   // Edges of many thin parts are not smoothed: in software that takes as long as the lines themselves.
   const canvas = document.createElement("canvas"),

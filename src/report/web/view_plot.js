@@ -205,7 +205,7 @@ class Plot {
       box,
       "text",
       {class: "tiny soft", x: 6, y: height - 5},
-      (this.own ? "scale of " + this.series[0].label : this.unit ? "in " + this.unit : "pure number") +
+      (this.own ? "scale of " + this.series[0].label : this.unit ? "in " + this.unit : "no unit") +
         (base > 0 ? ", minus " : base < 0 ? ", plus " : "") +
         (base ? number(Math.abs(base), 8) : ""),
     );

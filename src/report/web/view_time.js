@@ -16,6 +16,7 @@ function startTime(view, bar) {
     shownAt = performance.now();
     bar.showTime(state.time);
     for (const p of view.plots) p.show(state.time);
+    view.showSignals(state.time);
   };
   view.setTime = function (time) {
     state.time = Math.min(end, Math.max(times[0], time));
