@@ -7,7 +7,6 @@
 #include "bough/io/read_scene.hpp"
 #include "bough/laws/formula.hpp"
 #include "bough/laws/law_error.hpp"
-#include "bough/scene/nearest_name.hpp"
 
 namespace bough::io {
 namespace {
@@ -41,7 +40,7 @@ std::string NamedNumbers::hint_for(const std::string& name) {
   for (const auto& [other, value] : values_)
     if (known.size() < most) known.push_back(other);
   std::sort(known.begin(), known.end());  // the order in the table has no meaning
-  const std::string near = scene::nearest_name(name.substr(0, 100), known);
+  const std::string near = search_.nearest(name.substr(0, 100), known);
   return near.empty() ? "names are those of \"parameters\" and the index of copies" : "did you mean \"" + near + "\"?";
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bough/io/json_value.hpp"
+#include "bough/scene/nearest_name.hpp"
 
 namespace bough::io {
 
@@ -48,6 +49,7 @@ class NamedNumbers {
   std::unordered_map<std::string, double> values_;
   std::unordered_set<std::string> defective_, used_;
   std::size_t num_hints_ = 0;
+  scene::NameSearch search_;
 };
 
 }  // namespace bough::io

@@ -5,7 +5,6 @@
 
 #include "bough/io/number_text.hpp"
 #include "bough/io/schema_rule.hpp"
-#include "bough/scene/nearest_name.hpp"
 #include "document_report.hpp"
 #include "read_values.hpp"
 #include "schema_parts.hpp"
@@ -155,8 +154,7 @@ class FrameConverter : private ValueConverter {
     const auto found = std::find(names_.begin() + 1, names_.end(), name.text);
     if (found != names_.end()) return static_cast<int>(found - names_.begin());
     if (!all_named_) return 0;  // the fault of the frame itself was reported
-    const std::string near = scene::nearest_name(name.text.str(), names_);
-    fault(at, "no frame has this name", near.empty() ? "" : "did you mean \"" + near + "\"?");
+    fault(at, "no frame has this name", did_you_mean(name.text.str(), names_));
     return 0;
   }
 

@@ -8,7 +8,6 @@
 #include "bough/laws/formula.hpp"
 #include "bough/laws/law_error.hpp"
 #include "bough/laws/make_law.hpp"
-#include "bough/scene/nearest_name.hpp"
 #include "bough/scene/signals.hpp"
 #include "read_scene_impl.hpp"
 
@@ -150,11 +149,8 @@ std::string servo_text(const JsonValue& v, const scene::Signal& state, const sce
 
 void Converter::need_signal(const std::string& name, const std::string& at) {
   if (known_signals_.count(name) > 0) return;
-  const std::string near = scene::nearest_name(name, signal_names_);
   fault(at, "no signal has this name",
-        !near.empty()           ? "did you mean \"" + near + "\"?"
-        : signal_names_.empty() ? "the scene has no signals"
-                                : "");
+        signal_names_.empty() ? "the scene has no signals" : did_you_mean(name, signal_names_));
 }
 
 /// The signal that a law or the name of one stands for; for a law, one of its own.
@@ -227,11 +223,12 @@ void Converter::driven_spring(const Value& v, const std::string& at, const scene
 /// The joint of this name, which was read before; nullptr, told, if there is none.
 scene::Joint* Converter::joint_to_drive(const std::string& name, const std::string& at) {
   if (scene::Joint* joint = joint_named(name)) return joint;
+  left_out_ |= is_defective(name);
+  if (left_out_) return nullptr;
   std::vector<std::string> names;
-  for (const scene::Joint& joint : scene.joints) names.push_back(joint.name);
-  left_out_ |= std::find(defective.begin(), defective.end(), name) != defective.end();
-  const std::string near = scene::nearest_name(name, names);
-  if (!left_out_) fault(at, "no joint has this name", near.empty() ? "" : "did you mean \"" + near + "\"?");
+  if (!search_.is_spent())
+    for (const scene::Joint& joint : scene.joints) names.push_back(joint.name);
+  fault(at, "no joint has this name", did_you_mean(name, names));
   return nullptr;
 }
 
@@ -274,10 +271,10 @@ void Converter::actuator(const Value& v, const std::string& at) {
   state.kind = SignalKind::state;
   state.name = unused_signal_name(stem + "of_limit");
   state.inputs = {state.name, way.name, rate.name, target};
-  state.unit = "-";
   if (target_rate != target) state.inputs.push_back(target_rate);
   state.formula = laws::Formula(servo_text(v, state, way, rate, target, target_rate), state.inputs);
   state.start = start / limit;
+  state.unit = "-";
   effort.name = name;
   effort.inputs = {state.name};
   effort.formula = laws::Formula(in_brackets(limit) + "*" + state.name, effort.inputs);

@@ -81,10 +81,11 @@ class Converter : private ValueConverter {
   std::string unused_signal_name(std::string name);
   void add_signal(scene::Signal signal, const std::string& at);
   scene::Joint* joint_named(const std::string& name);
+  bool is_defective(const std::string& name);
   void take_in_units(const Value& v, const std::string& at, double nominal, scene::Signal& s);
   void reaction(const Value& component, const std::string& at, scene::Signal s);
-  void signal(const Value& v, const std::string& at);
   std::string unit_of(const Value& v, const std::string& at);
+  void signal(const Value& v, const std::string& at);
   laws::Law law_or_signal(const Value& v, const std::string& at, std::string& signal);
 
   // What signals drive and what is made of other parts (read_scene_driven.cpp).
@@ -150,6 +151,8 @@ class Converter : private ValueConverter {
   std::unordered_set<std::string> springs_;                ///< names of all springs of the document
   std::unordered_map<std::string, std::size_t> joint_of_;  ///< first joint of each name, of those indexed so far
   std::size_t num_joints_indexed_ = 0;
+  std::unordered_set<std::string> defective_names_;  ///< of those indexed so far
+  std::size_t num_defective_indexed_ = 0;
   std::unordered_map<std::string, std::string> effort_of_;  ///< by joint: the first signal that reads an effort of it
   std::vector<Weight> weights_;                             ///< gravity that is made of loads
   int unnamed_ = 0;

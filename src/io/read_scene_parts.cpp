@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bough/scene/nearest_name.hpp"
 #include "bough/scene/outlines.hpp"
 #include "bough/scene/shapes.hpp"
 #include "read_scene_impl.hpp"
@@ -78,13 +77,9 @@ const scene::Material* Converter::material_named(const std::string& name, const 
     return nullptr;
   }
   std::vector<std::string> known;
-  constexpr std::size_t most = 1000;  // limit of the names compared, since every fault searches all of them
-  for (std::size_t i = 0; i < std::min(most, materials_.size()); ++i) known.push_back(materials_[i].name);
-  const std::string near = faults.size() < max_problems ? scene::nearest_name(name, known) : "";
-  fault(at, "no material has this name",
-        !near.empty()        ? "did you mean \"" + near + "\"?"
-        : materials_.empty() ? "the scene has no materials"
-                             : "");
+  if (!search_.is_spent())
+    for (const scene::Material& material : materials_) known.push_back(material.name);
+  fault(at, "no material has this name", materials_.empty() ? "the scene has no materials" : did_you_mean(name, known));
   return nullptr;
 }
 

@@ -46,6 +46,13 @@ scene::Joint* Converter::joint_named(const std::string& name) {
   return joint == joint_of_.end() ? nullptr : &scene.joints[joint->second];
 }
 
+/// Whether an item of this name was left out.
+bool Converter::is_defective(const std::string& name) {
+  for (; num_defective_indexed_ < defective.size(); ++num_defective_indexed_)
+    defective_names_.insert(defective[num_defective_indexed_]);
+  return defective_names_.count(name) > 0;
+}
+
 void Converter::add_signal(scene::Signal signal, const std::string& at) {
   const std::size_t before = scene.signals.size();
   add(scene.signals, "signals", std::move(signal), at);
@@ -114,6 +121,7 @@ void Converter::take_in_units(const Value& v, const std::string& at, double nomi
   in_units.name = unused_signal_name(s.name + "_of_nominal");
   in_units.formula = laws::Formula("(" + v.find("expression")->text.str() + ")/" + unit, s.inputs);
   in_units.start = s.start / nominal;
+  in_units.unit = "-";
   s.kind = SignalKind::formula;
   s.inputs = {in_units.name};
   s.formula = laws::Formula(unit + "*" + in_units.name, s.inputs);
@@ -121,7 +129,6 @@ void Converter::take_in_units(const Value& v, const std::string& at, double nomi
   add_signal(std::move(in_units), at);
 }
 
-  in_units.unit = "-";
 /// A component of a reaction is the multiplier of a row with the sign changed, as an effort is; where its own sign is
 /// the other one, a formula turns it.
 void Converter::reaction(const Value& component, const std::string& at, scene::Signal s) {
@@ -139,13 +146,6 @@ void Converter::reaction(const Value& component, const std::string& at, scene::S
   add_signal(std::move(s), at);
 }
 
-void Converter::signal(const Value& v, const std::string& at) {
-  scene::Signal s;
-  s.name = v.find("name")->text;
-  if (const Value* numbers = root_.find("parameters"); numbers != nullptr && numbers->find(s.name) != nullptr)
-    fault(at + "/name", "a parameter has this name, and formulas would take its number");
-  s.joint = text_or(v, "joint");
-  if (const Value* component = v.find("component")) return reaction(*component, at, std::move(s));
 /// The unit that a signal declares, for people.
 std::string Converter::unit_of(const Value& v, const std::string& at) {
   const std::string unit = text_or(v, "unit");
@@ -158,6 +158,13 @@ std::string Converter::unit_of(const Value& v, const std::string& at) {
   return unit;
 }
 
+void Converter::signal(const Value& v, const std::string& at) {
+  scene::Signal s;
+  s.name = v.find("name")->text;
+  if (const Value* numbers = root_.find("parameters"); numbers != nullptr && numbers->find(s.name) != nullptr)
+    fault(at + "/name", "a parameter has this name, and formulas would take its number");
+  s.joint = text_or(v, "joint");
+  if (const Value* component = v.find("component")) return reaction(*component, at, std::move(s));
   s.kind = scene::signal_kind_named(v.find("kind")->text.str()).value();  // the schema takes no other names
   s.coordinate = text_or(v, "coordinate");
   s.spring = text_or(v, "spring");
@@ -166,6 +173,7 @@ std::string Converter::unit_of(const Value& v, const std::string& at) {
   else
     s.of = text_or(v, "of");
   s.start = number_or(v, "start", 0.0);
+  s.unit = unit_of(v, at);
   if (const Value* where = v.find("at")) {
     s.at = attachment(*where, at + "/at");
     s.axis = v.find("axis")->text.str().front() - 'x';
@@ -173,7 +181,6 @@ std::string Converter::unit_of(const Value& v, const std::string& at) {
   }
   if (s.kind == SignalKind::spring_tension && springs_.count(s.spring) > 0 && joint_named(s.spring) != nullptr) {
     // A spring with more than constants: its tension is minus all that acts along its strut.
-  s.unit = unit_of(v, at);
     const auto known = effort_of_.find(s.spring);
     scene::Signal effort;
     effort.kind = SignalKind::joint_effort;

@@ -5,6 +5,7 @@
 
 #include "bough/io/json_value.hpp"
 #include "bough/io/read_scene.hpp"
+#include "bough/scene/nearest_name.hpp"
 #include "bough/scene/scene.hpp"
 
 namespace bough::io {
@@ -59,6 +60,13 @@ class ValueConverter {
   void fault(const std::string& at, std::string rule, std::string hint = {}, std::string value = {}) {
     faults.push_back({at, std::move(value), std::move(rule), std::move(hint)});
   }
+  /// A hint with the nearest of some names; empty where none is near.
+  std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
+    const std::string near = search_.nearest(word, known);
+    return near.empty() ? "" : "did you mean \"" + near + "\"?";
+  }
+
+  scene::NameSearch search_;
 };
 
 }  // namespace bough::io

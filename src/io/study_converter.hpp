@@ -7,15 +7,9 @@
 #include <vector>
 
 #include "bough/io/read_study.hpp"
-#include "bough/scene/nearest_name.hpp"
 #include "scene_converter.hpp"
 
 namespace bough::io {
-
-inline std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
-  const std::string near = scene::nearest_name(word, known);
-  return near.empty() ? "" : "did you mean \"" + near + "\"?";
-}
 
 class StudyConverter : public SceneConverter {
  public:

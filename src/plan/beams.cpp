@@ -134,6 +134,8 @@ void Builder::add_sensors() {
   for (std::size_t i = 0; i < plan.beams.size(); ++i) beam_of[plan.beams[i].name] = static_cast<int>(i);
   for (std::size_t i = 0; i < plan.joints.size(); ++i)  // the first joint of a prescribed motion
     joint_of.emplace(plan.joints[i].name, static_cast<int>(i));
+  std::unordered_map<std::string_view, const scene::JointType*> type_of_joint;
+  for (const scene::Joint& j : scene.joints) type_of_joint.emplace(j.name, &scene::type_of(j.kind));
   const auto index_in = [](const std::unordered_map<std::string, int>& list, const std::string& name) {
     const auto at = name.empty() ? list.end() : list.find(name);
     return at == list.end() ? -1 : at->second;
@@ -141,12 +143,11 @@ void Builder::add_sensors() {
   for (const scene::Sensor& s : scene.sensors) {
     SensorPlan p;
     p.sensor = s;
-    for (const scene::Joint& j : scene.joints)
-      if (j.name == s.joint)
-        if (const scene::JointCoordinate* measured = scene::coordinate_of(s, scene::type_of(j.kind))) {
-          p.sensor.coordinate = measured->name;
-          p.coordinate = measured->kind;
-        }
+    if (const auto type = type_of_joint.find(s.joint); type != type_of_joint.end())
+      if (const scene::JointCoordinate* measured = scene::coordinate_of(s, *type->second)) {
+        p.sensor.coordinate = measured->name;
+        p.coordinate = measured->kind;
+      }
     for (const scene::SensorComponent& c : scene::type_of(s.kind).components) p.components.push_back(c.name);
     p.beam = index_in(beam_of, s.beam);
     p.joint = index_in(joint_of, s.joint);

@@ -238,11 +238,11 @@ void Builder::add_initial_velocities() {
 
 /// The nodes keep their numbers from here on.
 void Builder::list_given_velocities() {
+  std::unordered_map<std::string_view, const BeamPlan*> beam_of;
+  for (const BeamPlan& beam : plan.beams) beam_of.emplace(beam.name, &beam);
   for (const scene::InitialVelocity& v : scene.initial_velocities) {
-    const auto beam =
-        std::find_if(plan.beams.begin(), plan.beams.end(), [&](const BeamPlan& b) { return b.name == v.of; });
-    if (beam != plan.beams.end()) {
-      for (int node : beam->nodes) plan.given_velocities.push_back({v.of, node});
+    if (const auto beam = beam_of.find(v.of); beam != beam_of.end()) {
+      for (int node : beam->second->nodes) plan.given_velocities.push_back({v.of, node});
       continue;
     }
     plan.given_velocities.push_back({v.of, node_of.at(v.of)});

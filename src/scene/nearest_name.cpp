@@ -32,16 +32,24 @@ int edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-std::string nearest_name(std::string_view word, std::span<const std::string> known) {
+bool NameSearch::is_spent() const {
+  constexpr double most_letters = 1e7;
+  return letters_ > most_letters;
+}
+
+std::string NameSearch::nearest(std::string_view word, std::span<const std::string> known) {
   constexpr std::size_t longest = 64;  // longer words are no slips of the finger, and the distance is quadratic
   if (word.empty() || word.size() > longest) return {};
   std::string best;
   int best_distance = 0;
   for (const std::string& candidate : known) {
+    if (is_spent()) break;
+    letters_ += 1.0;
     if (candidate.empty() || candidate.size() > longest) continue;
     const int limit = 2 * std::max(1, static_cast<int>(std::max(word.size(), candidate.size())) / 3);
     const int length_gap = 2 * std::abs(static_cast<int>(word.size()) - static_cast<int>(candidate.size()));
     if (length_gap > limit) continue;
+    letters_ += static_cast<double>(word.size() * candidate.size());
     const int d = edit_distance(word, candidate);
     if (d <= limit && (best.empty() || d < best_distance)) {
       best = candidate;
@@ -49,6 +57,10 @@ std::string nearest_name(std::string_view word, std::span<const std::string> kno
     }
   }
   return best;
+}
+
+std::string nearest_name(std::string_view word, std::span<const std::string> known) {
+  return NameSearch().nearest(word, known);
 }
 
 }  // namespace bough::scene

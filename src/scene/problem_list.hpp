@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bough/scene/components.hpp"
+#include "bough/scene/nearest_name.hpp"
 #include "bough/scene/poses.hpp"
 #include "bough/scene/problems.hpp"
 
@@ -45,9 +46,9 @@ struct ProblemList {
   void check_law(const char* section, std::size_t index, const std::string& key, const laws::Law& law,
                  bool with_derivatives);
 
-  /// The nearest of some names. Each search compares with all names, so searches end once they have cost too much in
-  /// total.
-  std::string nearest(const std::string& name, const std::vector<std::string>& known);
+  std::string nearest(const std::string& name, const std::vector<std::string>& known) {
+    return search_.nearest(name, known);
+  }
 
   std::optional<Thing> body_of(const std::string& place) const;  ///< the body of that name, if it is one
 
@@ -57,8 +58,8 @@ struct ProblemList {
 
   std::size_t num_kept_[2] = {0, 0}, last_kept_[2] = {0, 0};  ///< of problems and of warnings: the number kept, and the
                                                               ///< index of the last one
-  double break_work_ = 0.0;        ///< number of formula instructions executed in searches for breakpoints
-  double letters_compared_ = 0.0;  ///< number of letters compared by nearest()
+  double break_work_ = 0.0;  ///< number of formula instructions executed in searches for breakpoints
+  NameSearch search_;
 };
 
 std::string text_of(double x);

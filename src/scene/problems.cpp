@@ -17,8 +17,6 @@ namespace {
 constexpr std::size_t most_kept = 400;  // of problems and of warnings each: twice the number that is shown
 constexpr double most_break_work =
     2e7;  // instructions of formulas in searches for breakpoints, some tenths of a second: the run finds the rest
-constexpr double most_letters =
-    1e7;  // letters compared in searches for nearest names; beyond that (some tenths of a second) no name is suggested
 
 template <class List>
 std::vector<std::string> names_of(const List& list) {
@@ -119,13 +117,6 @@ bool ProblemList::is_defective(const std::string& name) const {
   if (defective.count(name) > 0) return true;
   const std::size_t dot_at = name.rfind('.');  // an inner node of a beam that is itself at fault
   return dot_at != std::string::npos && defective.count(name.substr(0, dot_at)) > 0;
-}
-
-std::string ProblemList::nearest(const std::string& name, const std::vector<std::string>& known) {
-  constexpr double usual_length = 8.0;
-  if (letters_compared_ > most_letters) return "";
-  letters_compared_ += static_cast<double>(known.size()) * usual_length * static_cast<double>(name.size() + 1);
-  return nearest_name(name, known);
 }
 
 bool ProblemList::check_reference(const char* section, std::size_t index, const std::string& key,

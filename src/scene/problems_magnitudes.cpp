@@ -128,10 +128,9 @@ void check_gyration(ProblemList& list, std::size_t i) {
 void check_slenderness(ProblemList& list, std::size_t i) {
   constexpr double digits = 1e18;  // twice those of a number: slender to 1e9
   const Beam& b = list.scene.beams[i];
-  const auto section = std::find_if(list.scene.sections.begin(), list.scene.sections.end(),
-                                    [&b](const Section& s) { return s.name == b.section; });
-  if (section == list.scene.sections.end()) return;
-  const Mat6& k = section->stiffness;
+  const auto section = list.section_of.find(b.section);
+  if (section == list.section_of.end()) return;
+  const Mat6& k = list.scene.sections[section->second].stiffness;
   const double length = list.poses.length_of(b), straining = std::max({k(0, 0), k(1, 1), k(2, 2)}) * length * length;
   const double bending = std::min({k(3, 3), k(4, 4), k(5, 5)});
   if (straining > digits * bending)

@@ -62,11 +62,9 @@ void check_joint_of(ProblemList& list, std::size_t i, const Signal& s) {
                  ": name one of them as coordinate");
 }
 
-void check_spring_of(ProblemList& list, const std::unordered_set<std::string_view>& known, std::size_t i,
-                     const Signal& s) {
+void check_spring_of(ProblemList& list, const std::unordered_set<std::string_view>& known,
+                     const std::vector<std::string>& springs, std::size_t i, const Signal& s) {
   if (known.count(s.spring) > 0 || list.is_defective(s.spring)) return;
-  std::vector<std::string> springs;
-  for (const Spring& spring : list.scene.springs) springs.push_back(spring.name);
   const std::string near = list.nearest(s.spring, springs);
   list.add("signals", i, "spring", s.spring, "no spring has this name",
            !near.empty()     ? "did you mean \"" + near + "\"?"
@@ -233,8 +231,9 @@ void check_signals(ProblemList& list) {
   const Scene& scene = list.scene;
   SignalNames names(list);
   SignalLevels levels(list);
-  std::unordered_set<std::string_view> springs;
-  for (const Spring& spring : scene.springs) springs.insert(spring.name);
+  std::vector<std::string> springs;
+  for (const Spring& spring : scene.springs) springs.push_back(spring.name);
+  const std::unordered_set<std::string_view> spring_of(springs.begin(), springs.end());
   check_twin_efforts(list);
   for (std::size_t i = 0; i < scene.signals.size(); ++i) {
     const Signal& s = scene.signals[i];
@@ -252,7 +251,7 @@ void check_signals(ProblemList& list) {
     if (s.kind == SignalKind::surface)
       for (std::size_t k = 0; k < s.inputs.size(); ++k)
         names.check("signals", i, "of/" + std::to_string(k), s.inputs[k]);
-    if (s.kind == SignalKind::spring_tension) check_spring_of(list, springs, i, s);
+    if (s.kind == SignalKind::spring_tension) check_spring_of(list, spring_of, springs, i, s);
     if (s.kind == SignalKind::time) list.check_law("signals", i, "law", s.law, false);
   }
   for (std::size_t i = 0; i < scene.sensors.size(); ++i)

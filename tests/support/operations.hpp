@@ -1,0 +1,46 @@
+#pragma once
+/// Counts what looking for names costs: comparisons of texts (memcmp) and allocations of memory, of which neither
+/// depends on the machine or on what else runs on it. Include it in one file of a program: it defines the functions
+/// that it counts.
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <new>
+
+namespace bough::test {
+
+inline long operations = 0;  ///< of one thread
+
+/// Those of a job.
+inline long operations_of(const std::function<void()>& job) {
+  const long before = operations;
+  job();
+  return operations - before;
+}
+
+/// Those of eight times the size over those of the size: 8 if they are in proportion, 64 if they are quadratic.
+inline double growth_by_eight(const std::function<void(int)>& job, int size) {
+  const long small = operations_of([&] { job(size); }), large = operations_of([&] { job(8 * size); });
+  return static_cast<double>(large) / static_cast<double>(small);
+}
+
+inline constexpr double linear_by_eight = 16.0;  ///< between 8 and 64; searches in trees make 11
+
+}  // namespace bough::test
+
+/// Takes the place of that of the C library for all code of the program.
+extern "C" int memcmp(const void* a, const void* b, std::size_t n) noexcept {
+  ++bough::test::operations;
+  const auto *x = static_cast<const unsigned char*>(a), *y = static_cast<const unsigned char*>(b);
+  for (std::size_t i = 0; i < n; ++i)
+    if (x[i] != y[i]) return x[i] < y[i] ? -1 : 1;
+  return 0;
+}
+
+void* operator new(std::size_t size) {
+  ++bough::test::operations;
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
