@@ -206,7 +206,6 @@ void add_analysis_rules(RuleTable& t, const Field& frame) {
 void read_analysis(const Value& v, Analysis& analysis) {
   const Value* name = v.find("kind");
   analysis.kind = scene::analysis_kind_named(name->text.str()).value();  // the schema takes no other names
-  analysis.bdf_order = 0;                                                // in files it is chosen unless it is given
   for (const KindOptions& k : kinds())
     if (k.kind == analysis.kind)
       for (const Option& o : k.options)

@@ -38,6 +38,8 @@ TEST(SceneRead, what_is_left_out_takes_the_defaults_of_the_scene) {
   const scene::Scene d;
   EXPECT_EQ(s.analysis.step_size, d.analysis.step_size);
   EXPECT_EQ(s.analysis.spectral_radius, d.analysis.spectral_radius);
+  EXPECT_EQ(s.analysis.bdf_order, d.analysis.bdf_order);
+  EXPECT_EQ(s.analysis.newmark_beta, d.analysis.newmark_beta);
   EXPECT_EQ(s.analysis.newton, d.analysis.newton);
   EXPECT_EQ(s.analysis.tolerance, d.analysis.tolerance);
   EXPECT_EQ(s.analysis.max_iterations, d.analysis.max_iterations);

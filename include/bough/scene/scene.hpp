@@ -341,7 +341,7 @@ struct Analysis {
   std::optional<StepControl> step_control;
   Integrator integrator = Integrator::generalized_alpha;
   double spectral_radius = 0.8;  ///< of generalized-alpha
-  int bdf_order = 3;             ///< of backward differences: 2 or 3; 0: chosen
+  int bdf_order = 0;             ///< of backward differences: 2 or 3; 0: 3, but 2 where undamped vibrations would grow
   double newmark_beta = 0.3;     ///< of the variational integrator, for vibrations
   // both
   Newton newton = Newton::full;

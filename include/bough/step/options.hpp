@@ -12,7 +12,7 @@ struct StepOptions {
   scene::Integrator integrator = scene::Integrator::generalized_alpha;
   double spectral_radius =
       0.8;                    ///< of generalized-alpha: rho_inf [-] at infinite frequency, 0 (most damping) to 1 (none)
-  int bdf_order = 3;          ///< of backward differences: 2 or 3; 0: 3, but 2 where undamped vibrations would grow
+  int bdf_order = 0;          ///< of backward differences: 2 or 3; 0: 3, but 2 where undamped vibrations would grow
   double newmark_beta = 0.3;  ///< of the variational integrator, for vibrations [-], 1/4 to 1
   double tolerance = 1e-8;    ///< [-] of changes of relative motions, and of residuals relative to what makes them
   int max_iterations = 20;    ///< Newton limit, >= 1
