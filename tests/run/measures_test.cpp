@@ -204,6 +204,20 @@ TEST(Measures, a_measure_may_be_one_of_earlier_measures) {
   EXPECT_EQ(indicators, (std::vector<bool>{false, false, false, true, false, false, false, false}));
 }
 
+// A signal of unknown unit is no pure number, by which a length would stay a length.
+TEST(Measures, of_signals_of_unknown_unit_have_none) {
+  const scene::Scene scene = support::scene_of(R"x({"analysis": {"kind": "dynamic", "end_time": 1e-3},
+    "bodies": [{"name": "a", "mass": 1, "inertia": [1, 1, 1]}],
+    "signals": [{"name": "gain", "kind": "input"}, {"name": "height", "kind": "position", "at": "a", "axis": "z"}],
+    "sensors": [{"name": "a", "kind": "position", "at": "a"}, {"name": "gain", "kind": "signal", "signal": "gain"},
+      {"name": "height", "kind": "signal", "signal": "height"}],
+    "measures": [{"name": "product", "expression": "g*x", "of": {"g": "gain", "x": "a.x"}},
+      {"name": "square", "expression": "h*x", "of": {"h": "height", "x": "a.x"}},
+      {"name": "most", "quantity": "height", "figure": "max"}]})x");
+  const support::Outcome run = support::run(scene);
+  EXPECT_EQ(units_of_measures(scene, run.summary.header), (std::vector<std::string>{"", "m^2", "m"}));
+}
+
 TEST(Measures, what_is_wrong_with_a_measure_is_told) {
   const std::pair<const char*, const char*> cases[] = {
       {R"({"name": "m", "quantity": "b.x"})", "no sensor"},
