@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_set>
 #include <utility>
 
 #include "bough/io/number_text.hpp"
 #include "bough/scene/components.hpp"
+#include "column_places.hpp"
 #include "seek.hpp"
 
 namespace bough::run {
@@ -28,14 +30,12 @@ bool needs_least(FigureKind k) {
 
 /// Sensors used by a figure (or all), by their indices in the plan.
 std::vector<int> sensors_asked_for(const std::vector<scene::Expected>& expected, const plan::Plan& plan, bool all) {
+  std::unordered_set<std::string> asked;
+  for (const scene::Expected& e : expected)
+    if (is_at_time(e) || is_of_whole_run(e)) asked.insert(e.quantity.substr(0, e.quantity.find('.')));
   std::vector<int> sensors;
-  for (std::size_t k = 0; k < plan.sensors.size(); ++k) {
-    const std::string& name = plan.sensors[k].sensor.name;
-    const auto asks = [&](const scene::Expected& e) {
-      return (is_at_time(e) || is_of_whole_run(e)) && e.quantity.substr(0, e.quantity.find('.')) == name;
-    };
-    if (all || std::any_of(expected.begin(), expected.end(), asks)) sensors.push_back(static_cast<int>(k));
-  }
+  for (std::size_t k = 0; k < plan.sensors.size(); ++k)
+    if (all || asked.count(plan.sensors[k].sensor.name) > 0) sensors.push_back(static_cast<int>(k));
   return sensors;
 }
 
@@ -57,18 +57,25 @@ ExpectedFigures::ExpectedFigures(const scene::Scene& scene, const std::vector<sc
       window_(plan, sensors_asked_for(expected, plan, sample_ != nullptr)) {
   const scene::Analysis& analysis = scene.analysis;
   reach_ = plan.is_dynamic ? analysis.step_control ? analysis.end_time : around * analysis.step_size : 0.0;
-  std::vector<std::size_t> first_column{0};
-  for (const plan::SensorPlan& s : plan.sensors) first_column.push_back(first_column.back() + s.components.size());
+  struct Place {
+    int sensor = -1;  // of the window
+    std::size_t component = 0;
+  };
+  std::vector<Place> place_of_column;
+  for (std::size_t s = 0, k = 0; s < plan.sensors.size(); ++s) {
+    const bool is_seen = k < window_.sensors().size() && window_.sensors()[k] == static_cast<int>(s);
+    for (std::size_t c = 0; c < plan.sensors[s].components.size(); ++c)
+      place_of_column.push_back({is_seen ? static_cast<int>(k) : -1, c});
+    k += is_seen ? 1 : 0;
+  }
+  const ColumnPlaces columns(header);
   for (const scene::Expected& e : expected) {
     Figure figure;
     figure.given = &e;
-    figure.column = static_cast<std::size_t>(std::find(header.columns.begin(), header.columns.end(), e.quantity) -
-                                             header.columns.begin());
-    for (std::size_t k = 0; k < window_.sensors().size(); ++k) {
-      const auto sensor = static_cast<std::size_t>(window_.sensors()[k]);
-      if (figure.column < first_column[sensor] || figure.column >= first_column[sensor + 1]) continue;
-      figure.sensor = static_cast<int>(k);
-      figure.component = figure.column - first_column[sensor];
+    figure.column = columns.of(e.quantity);
+    if (figure.column < place_of_column.size() && place_of_column[figure.column].sensor >= 0) {
+      figure.sensor = place_of_column[figure.column].sensor;
+      figure.component = place_of_column[figure.column].component;
     }
     if (is_at_time(e)) times_.push_back(*e.time);
     sees_all_ = sees_all_ || is_of_whole_run(e);

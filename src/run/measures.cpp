@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bough/scene/sensor_kinds.hpp"
+#include "column_places.hpp"
 
 namespace bough::run {
 
@@ -14,28 +15,24 @@ bool Measures::is_figure(const scene::Measure& measure) {
 }
 
 Measures::Measures(const scene::Scene& scene, const records::HistoryHeader& header) {
+  const ColumnPlaces columns(header);
   for (const scene::Measure& m : scene.measures)
-    if (!is_figure(m) && !m.is_of_measures) measures_.push_back({&m, quantity_of(m, header)});
+    if (!is_figure(m) && !m.is_of_measures) measures_.push_back({&m, quantity_of(m, columns)});
 }
 
-std::size_t Measures::quantity_of(const scene::Measure& measure, const records::HistoryHeader& header) {
+std::size_t Measures::quantity_of(const scene::Measure& measure, const ColumnPlaces& columns) {
   std::string key = measure.quantity + "\n" + measure.expression;
   for (const auto& [name, column] : measure.names) key += "\n" + name + "\n" + column;
-  const auto known = std::find(keys_.begin(), keys_.end(), key);
-  if (known != keys_.end()) return static_cast<std::size_t>(known - keys_.begin());
-  keys_.push_back(key);
-  const auto column_of = [&header](const std::string& name) {
-    return static_cast<std::size_t>(std::find(header.columns.begin(), header.columns.end(), name) -
-                                    header.columns.begin());
-  };
+  const auto [known, is_new] = quantity_of_key_.emplace(std::move(key), quantities_.size());
+  if (!is_new) return known->second;
   Quantity quantity;
   if (measure.expression.empty()) {
-    quantity.columns = {column_of(measure.quantity)};
+    quantity.columns = {columns.of(measure.quantity)};
   } else {
     std::vector<std::string> names;
     for (const auto& [name, column] : measure.names) {
       names.push_back(name);
-      quantity.columns.push_back(column_of(column));
+      quantity.columns.push_back(columns.of(column));
     }
     quantity.formula.emplace(measure.expression, names);
   }
@@ -163,24 +160,25 @@ std::string unit_of(const scene::Measure& measure, const records::HistoryHeader&
 std::vector<std::string> units_of_measures(const scene::Scene& scene, const records::HistoryHeader& header) {
   std::vector<std::string> units;
   const std::string of_signals = scene::to_string(scene::SensorKind::signal);
+  const ColumnPlaces columns(header);
+  std::unordered_map<std::string_view, std::size_t> place_of;  // of earlier measures
   const auto unit_of_column = [&](const std::string& name) -> std::optional<std::string> {
-    const auto at = static_cast<std::size_t>(std::find(header.columns.begin(), header.columns.end(), name) -
-                                             header.columns.begin());
+    const std::size_t at = columns.of(name);
     if (at >= header.about.size()) return std::string();
     const records::HistoryHeader::About& about = header.about[at];
     if (about.unit.empty() && about.quantity == of_signals) return std::nullopt;  // pure, or not known
     return about.unit;
   };
   const auto unit_of_measure = [&](const std::string& name) -> std::optional<std::string> {
-    for (std::size_t k = 0; k < units.size(); ++k)
-      if (scene.measures[k].name == name) return units[k];
-    return std::string();
+    const auto earlier = place_of.find(name);
+    return earlier == place_of.end() ? std::string() : units[earlier->second];
   };
   for (const scene::Measure& m : scene.measures) {
     if (m.is_of_measures)
       units.push_back(unit_of(m, header, unit_of_measure));
     else
       units.push_back(unit_of(m, header, unit_of_column));
+    place_of.emplace(m.name, units.size() - 1);
   }
   return units;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "bough/laws/formula.hpp"
@@ -76,11 +77,11 @@ class Measures {
     const scene::Measure* given;
     std::size_t quantity;  ///< in quantities_
   };
-  std::size_t quantity_of(const scene::Measure& measure, const records::HistoryHeader& header);
+  std::size_t quantity_of(const scene::Measure& measure, const class ColumnPlaces& columns);
 
   std::vector<Measure> measures_;
   std::vector<Quantity> quantities_;
-  std::vector<std::string> keys_;  ///< of quantities: names and expressions, so that equal quantities are stored once
+  std::unordered_map<std::string, std::size_t> quantity_of_key_;  ///< by names and expression: equal ones are one
   std::vector<double> times_, arguments_;
 };
 
