@@ -35,7 +35,6 @@ std::string LoadPath::look_at_stability(double length, bool is_last_try, Step& s
     cause.clear();
     for (int k = 0; cause.empty() && from.value != to.value && k < most_bifurcations; ++k)
       cause = find_bifurcation(from, to, look.unstable, step);
-    state_ = step.last();
     if (const auto t = path_->set_tangent(state_)) return t->text;
   }
   if (is_last_try && !cause.empty()) {

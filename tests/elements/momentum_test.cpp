@@ -147,5 +147,57 @@ TEST(Momentum, of_couplings_is_the_derivative_of_the_discrete_action) {
   }
 }
 
+/// The elastic inertia's part of momenta is linear in the twists of the nodes: it is its matrix times them.
+template <class E>
+void expect_elastic_matrix(const Sample<E>& s) {
+  SCOPED_TRACE(s.name);
+  const auto size = static_cast<std::size_t>(6 * s.nodes.size());
+  std::vector<double> with(size), without(size), matrix(size * size), product(size);
+  evaluate_momentum(s.element, s.field(true), 0.0, elastic, with.data(), nullptr);
+  evaluate_momentum(s.element, s.field(true), 0.0, 0.0, without.data(), nullptr);
+  add_elastic_mass(s.element, s.field(true), elastic, matrix.data());
+  for (std::size_t i = 0; i < size; ++i) {
+    with[i] -= without[i];
+    for (std::size_t j = 0; j < size; ++j)
+      product[i] += matrix[size * i + j] * s.nodes[j / 6].v[static_cast<int>(j % 6)];
+  }
+  EXPECT_LE(relative_error(product, with), exact);
+  EXPECT_GT(largest(with), 1e-3);
+}
+TEST(Momentum, of_the_elastic_inertia_is_its_matrix_times_the_twists) {
+  for (const Ends ends : {Ends::plain, Ends::offset, Ends::grounded}) {
+    expect_elastic_matrix(beam_sample<2>(ends));
+    expect_elastic_matrix(beam_sample<3>(ends));
+    expect_elastic_matrix(beam_sample<4>(ends));
+    expect_elastic_matrix(bushing_sample(ends));
+  }
+}
+
+/// The blocks of the nodes of a beam whose nodes share one twist add up to the block of a body of its mass.
+template <int N>
+void expect_shared_mass() {
+  Sample<Beam<N>> beam = beam_sample<N>(Ends::plain);
+  Sample<RigidBody> body = body_sample(false);
+  body.element.mass = beam.element.length * beam.element.mass;
+  for (NodeMotion& n : beam.nodes) n.v = body.nodes[0].v;
+  std::vector<double> nodes(static_cast<std::size_t>(36 * N * N)), whole(36), sum(36);
+  add_gyroscopic(beam.element, beam.field(true), 0.7, nodes.data());
+  add_gyroscopic(body.element, body.field(true), 0.7, whole.data());
+  for (std::size_t i = 0; i < 6 * N; ++i)
+    for (std::size_t j = 0; j < 6 * N; ++j) {
+      if (i / 6 == j / 6)
+        sum[6 * (i % 6) + j % 6] += nodes[6 * N * i + j];
+      else
+        EXPECT_EQ(nodes[6 * N * i + j], 0.0);
+    }
+  EXPECT_LE(relative_error(sum, whole), exact);
+  EXPECT_GT(largest(whole), 0.1);
+}
+TEST(Momentum, gyroscopic_blocks_of_a_beam_share_out_its_mass) {
+  expect_shared_mass<2>();
+  expect_shared_mass<3>();
+  expect_shared_mass<4>();
+}
+
 }  // namespace
 }  // namespace bough::elements::check

@@ -105,6 +105,38 @@ TEST(ArcLength, follows_signals_and_states_past_limit_points) {
   EXPECT_NEAR(run.summary.limit_points[1].load_factor, least, 1e-8);
 }
 
+// A steep truss whose block may leave sideways loses stability where l^2 - l^3 = b^2, before its limit point at l^3 =
+// b^2. A step that holds both is repeated with a shorter length, so that the bifurcation is told.
+TEST(ArcLength, a_bifurcation_and_a_limit_point_within_one_step_are_told_apart) {
+  const double b = 0.3, load = 1000.0;
+  double l = 0.9;  // the larger root
+  for (int k = 0; k < 50; ++k) l -= (l * l - l * l * l - b * b) / (2.0 * l - 3.0 * l * l);
+  const auto load_at = [&](double length) {
+    return 2.0 * stiffness * std::sqrt(length * length - b * b) * (1.0 / length - 1.0) / load;
+  };
+  const support::Outcome run = support::run(support::scene_of(R"({
+    "bodies": [{"name": "block", "kind": "point_mass", "mass": 1, "position": [0, )" +
+                                                              support::text(std::sqrt(1.0 - b * b)) + R"(, 0]}],
+    "motions": [{"at": "block", "z": 0}],
+    "springs": [
+      {"name": "left", "first": {"to": "ground", "position": [-0.3, 0, 0]}, "second": "block", "stiffness": 1000,
+       "rest_length": 1},
+      {"name": "right", "first": {"to": "ground", "position": [0.3, 0, 0]}, "second": "block", "stiffness": 1000,
+       "rest_length": 1}],
+    "loads": [{"name": "push", "at": "block", "force": [0, -1000, 0]}],
+    "sensors": [{"name": "block", "kind": "position", "at": "block"}],
+    "analysis": {"kind": "static", "unstable": true, "tolerance": 1e-11,
+      "arc_length": {"step": 0.6, "largest_step": 0.6, "after_limit_points": 2, "end_load_factor": 0.2}}})"));
+  ASSERT_TRUE(run.ok()) << run.summary.cause;
+  EXPECT_GE(run.summary.steps.rejected, 1);
+  ASSERT_EQ(run.summary.limit_points.size(), 2u);
+  EXPECT_NEAR(run.summary.limit_points[0].load_factor, load_at(std::cbrt(b * b)), 1e-9);
+  ASSERT_GE(run.summary.bifurcations.size(), 1u);
+  EXPECT_TRUE(run.summary.bifurcations[0].is_lost);
+  EXPECT_NEAR(run.summary.bifurcations[0].load_factor, load_at(l), 1e-6);
+  EXPECT_NE(run.summary.bifurcations[0].mode.find("along (1, 0, 0)"), std::string::npos);
+}
+
 TEST(ArcLength, ends_at_the_first_passing_of_its_load_or_at_a_limit_point) {
   const double load = 200.0, y_limit = std::sqrt(std::pow(base * base, 2.0 / 3.0) - base * base);
   const double limit = truss_load(y_limit) / load;
