@@ -404,6 +404,56 @@ TEST(DrivenParts, a_bushing_stiffens_with_its_way_in_statics) {
   }
 }
 
+// The same along the path of equilibria: its load factor follows from the place in closed form at every row.
+TEST(DrivenParts, a_bushing_stiffens_with_its_way_on_a_path_by_arc_length) {
+  const Outcome out = run_ok(scene_of(R"-({"analysis": {"kind": "static", "tolerance": 1e-11,
+    "arc_length": {"step": 0.05, "largest_step": 0.1}},
+  "bodies": [{"name": "mass", "mass": 2, "inertia": [0.5, 0.5, 0.5]}],
+  "bushings": [{"name": "pad", "first": "ground", "second": "mass", "stiffness": [128, 90, 90, 9, 9, 9],
+    "stiffness_factor": {"signal": "factor"}}],
+  "loads": [{"at": "mass", "force": [20, 0, 0]}],
+  "signals": [{"name": "way", "kind": "position", "at": "mass", "axis": "x"},
+    {"name": "factor", "kind": "formula", "expression": "1 + 3*way^2"}],
+  "sensors": [{"name": "at", "kind": "position", "at": "mass"}]})-"));
+  ASSERT_GT(out.history.times.size(), 2u);
+  for (std::size_t r = 0; r < out.history.times.size(); ++r) {
+    const double x = out.history.rows[r][out.history.column("at.x")];
+    EXPECT_NEAR(20.0 * out.history.times[r], 128.0 * (1.0 + 3.0 * x * x) * x, 1e-9) << r;
+  }
+}
+
+// Started in equilibrium under its weight, with a factor of 2 from a state that sits at x' = 0, a mass stays there.
+TEST(DrivenParts, a_bushing_of_a_state_starts_in_equilibrium) {
+  const Outcome out = run_ok(scene_of(R"-({"gravity": [0, -9.81, 0],
+  "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.01, "start": "equilibrium", "tolerance": 1e-11},
+  "bodies": [{"name": "mass", "mass": 2, "inertia": [0.5, 0.5, 0.5]}],
+  "bushings": [{"name": "pad", "first": "ground", "second": "mass", "stiffness": [90, 128, 90, 9, 9, 9],
+    "stiffness_factor": {"signal": "factor"}}],
+  "signals": [{"name": "factor", "kind": "state", "expression": "(2 - factor)/0.1"}],
+  "sensors": [{"name": "at", "kind": "position", "at": "mass"}, {"name": "strain", "kind": "strain_energy"}]})-"));
+  const double y = -2.0 * 9.81 / 256.0;
+  for (const double at : out.history.of("at.y")) EXPECT_NEAR(at, y, 1e-12);
+  EXPECT_NEAR(out.history.last("strain"), 128.0 * y * y, 1e-11);
+}
+
+// The force that moves a mass on a bushing as prescribed, m x'' + f k x.
+TEST(DrivenParts, inverse_dynamics_pulls_against_the_factor_of_a_bushing) {
+  const Outcome out = run_ok(scene_of(R"-({"analysis": {"kind": "inverse_dynamics", "end_time": 1, "step_size": 0.1},
+  "bodies": [{"name": "mass", "mass": 2, "inertia": [0.5, 0.5, 0.5]}],
+  "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "mass", "axis": [1, 0, 0],
+    "drives": [{"law": {"expression": "0.3*t^2"}}]}],
+  "bushings": [{"name": "pad", "first": "ground", "second": "mass", "stiffness": [128, 90, 90, 9, 9, 9],
+    "stiffness_factor": {"signal": "factor"}}],
+  "signals": [{"name": "way", "kind": "joint_displacement", "joint": "rail"},
+    {"name": "factor", "kind": "formula", "expression": "1 + 3*way^2"},
+    {"name": "pull", "kind": "joint_effort", "joint": "rail"}],
+  "sensors": [{"name": "pull", "kind": "signal", "signal": "pull"}]})-"));
+  for (std::size_t r = 0; r < out.history.times.size(); ++r) {
+    const double t = out.history.times[r], x = 0.3 * t * t;
+    EXPECT_NEAR(out.history.rows[r][out.history.column("pull")], 2.0 * 0.6 + 128.0 * (1.0 + 3.0 * x * x) * x, 1e-9);
+  }
+}
+
 // A factor does not scale the damping: with stiffness switched off a mass slows down as m v' = -c v.
 TEST(DrivenParts, a_factor_of_zero_leaves_the_damping_of_a_bushing) {
   const Outcome out = run_ok(scene_of(on_bushings("0", Softening::k, 0.7),
