@@ -11,6 +11,7 @@
 #include "bough/io/number_text.hpp"
 #include "bough/io/run_directory.hpp"
 #include "bough/io/run_store.hpp"
+#include "bough/records/no_recorder.hpp"
 #include "bough/run/estimate.hpp"
 #include "bough/run/simulate.hpp"
 #include "bough/version.hpp"
@@ -49,14 +50,6 @@ std::string first_problems(const io::SceneFile& file) {
   if (file.problems.size() > shown) text += "and " + std::to_string(file.problems.size() - shown) + " more problems";
   return text;
 }
-
-/// Takes a run whose results nobody keeps.
-struct NoRecorder final : records::Recorder {
-  void begin(const records::HistoryHeader&) override {}
-  void row(const records::HistoryRow&) override {}
-  void motion(const records::MotionFrame&) override {}
-  void end(const records::Summary&) override {}
-};
 
 records::Summary simulate(const scene::Scene& scene, const CaseSettings& settings,
                           std::chrono::steady_clock::time_point start, records::Recorder& recorder) {
@@ -168,7 +161,7 @@ int run_case_within(const study::BatchCase& which, const CaseSettings& settings,
     case Kept::folder:
       return run_into_folder(which, settings, file.scene, origin, start, report);
   }
-  NoRecorder nothing;
+  records::NoRecorder nothing;
   const records::Summary summary = simulate(file.scene, settings, start, nothing);
   report.take(summary, file.scene);
   return status_of(summary);

@@ -6,6 +6,7 @@
 #include "bough/io/output_folder.hpp"
 #include "bough/io/profile_json.hpp"
 #include "bough/io/read_scene.hpp"
+#include "bough/records/no_recorder.hpp"
 #include "bough/study/profile.hpp"
 #include "bough/version.hpp"
 #include "memory_limit.hpp"
@@ -15,18 +16,6 @@
 #include "tree_text.hpp"
 
 namespace bough::app {
-namespace {
-
-/// A profile looks at steps; it records nothing of the motion.
-class NoRecorder final : public records::Recorder {
- public:
-  void begin(const records::HistoryHeader&) override {}
-  void row(const records::HistoryRow&) override {}
-  void motion(const records::MotionFrame&) override {}
-  void end(const records::Summary&) override {}
-};
-
-}  // namespace
 
 int profile(const ProfileArguments& arguments) {
   const io::SceneFile file = io::read_scene(arguments.scene, arguments.overrides);
@@ -45,7 +34,7 @@ int profile(const ProfileArguments& arguments) {
   study::ProfileOptions options;
   options.threads = arguments.threads > 0 ? arguments.threads : default_threads();
   options.steps = arguments.steps;
-  NoRecorder nobody;
+  records::NoRecorder nobody;
   records::Profile result;
   std::string pages;
   try {

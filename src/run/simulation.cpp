@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "analysis.hpp"
+#include "bough/records/no_recorder.hpp"
 #include "bough/schedule/threads.hpp"
 #include "judgement.hpp"
 
@@ -16,13 +17,6 @@ namespace bough::run {
 using records::RunStatus;
 
 namespace {
-
-struct NoRecorder final : records::Recorder {
-  void begin(const records::HistoryHeader&) override {}
-  void row(const records::HistoryRow&) override {}
-  void motion(const records::MotionFrame&) override {}
-  void end(const records::Summary&) override {}
-};
 
 int threads_for(const scene::Scene& scene, const plan::Plan& plan, int asked) {
   return scene.solver.tasks && !plan.took("small") ? std::max(1, asked) : 1;
@@ -90,7 +84,7 @@ struct Simulation::Impl {
   }
 
   const std::chrono::steady_clock::time_point made_at = std::chrono::steady_clock::now();
-  NoRecorder no_recorder;
+  records::NoRecorder no_recorder;
   const SimulateOptions asked;
   const ProgressCallback progress;
   const scene::Scene& scene;

@@ -45,35 +45,6 @@ void eliminate_one(const FrontParts& v, int k, int end) {
   }
 }
 
-/// Eliminates pivots within columns [k, end), and updates only these. Returns the new k; -1 if an entry is not finite.
-int eliminate_panel(const FrontParts& v, FrontMatrix& f, const PivotRule& rule, int k, int end) {
-  int open = end;  // columns [open, end) were rejected in this round
-  bool progress = false;
-  for (;;) {
-    if (k == open) {
-      if (open == end || !progress) return k;
-      open = end;  // the rejected columns have changed: another round
-      progress = false;
-    }
-    const double* column = v.top(k);
-    const double largest = find_largest(column, k, f.size);
-    if (!std::isfinite(largest)) return -1;
-    const double least = rule.least_beside(largest, f.columns[k]);
-    int row = k;
-    if (std::abs(column[k]) < least) row = find_row_of_largest(column, k, f.full);
-    if (std::abs(column[row]) >= least) {
-      swap_rows(v, f, row, k);
-      eliminate_one(v, k, end);
-      ++k;
-      progress = true;
-    } else {
-      --open;
-      swap_columns(v, f, k, open);
-      swap_rows(v, f, k, open);  // both, so that a diagonal stays one
-    }
-  }
-}
-
 /// U = L^-1 B in place, L unit lower (depth x depth), B: n columns; packed as well, in groups filled up with zeros.
 void solve_and_pack(int depth, const double* l, std::ptrdiff_t ldl, int n, double* b, std::ptrdiff_t ldb,
                     double* packed) {
@@ -134,26 +105,32 @@ void catch_up(const FrontParts& v, int begin, int k, int first, int last) {
   }
 }
 
+/// The diagonal is preferred as a pivot; else it is the largest entry of its column among the fully summed rows.
+struct General {
+  const FrontParts& parts;
+  FrontMatrix& front;
+  static constexpr double flops = 2.0;
+
+  int take_pivot(int k, int /*open*/, int end, double least) const {
+    const double* column = parts.top(k);
+    const int row = std::abs(column[k]) < least ? find_row_of_largest(column, k, front.full) : k;
+    if (!(std::abs(column[row]) >= least)) return 0;
+    swap_rows(parts, front, row, k);
+    eliminate_one(parts, k, end);
+    return 1;
+  }
+  void exchange(int k, int open) const {
+    swap_columns(parts, front, k, open);
+    swap_rows(parts, front, k, open);  // both, so that a diagonal stays one
+  }
+  void catch_up(int begin, int k, int first, int last) const { solve::catch_up(parts, begin, k, first, last); }
+};
+
 }  // namespace
 
 int eliminate_with_threshold(FrontMatrix& f, const PivotRule& rule, const tree::Walker* walker) {
-  const FrontParts v(f);
-  int k = 0, tried = 0;  // columns [k, tried) were rejected by earlier panels and are tried again with the next one
-  while (tried < f.full) {
-    const int begin = k, end = end_of_panel(tried, f.full, outer_panel);
-    while (tried < end) {
-      const int inner_begin = k, inner_end = end_of_panel(tried, end, inner_panel);
-      k = eliminate_panel(v, f, rule, k, inner_end);
-      if (k < 0) return -1;
-      for (int j = inner_end; k > inner_begin && j < end; j += tiles::chunk)
-        catch_up(v, inner_begin, k, j, std::min(end, j + tiles::chunk));
-      tried = inner_end;
-    }
-    if (k == begin) continue;
-    const auto update = [&](int first, int last) { catch_up(v, begin, k, first, last); };
-    for_chunks_of_columns(end, f.full, f.size, 2.0 * (k - begin) * (f.size - k), walker, update);
-  }
-  return k;
+  const FrontParts parts(f);
+  return eliminate_in_panels(f, General{parts, f}, rule, walker);
 }
 
 int eliminate_completely(FrontMatrix& f, int k, int most, double least, double* row_weight, double* column_weight) {

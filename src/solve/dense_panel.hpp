@@ -3,6 +3,7 @@
 /// to solve.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "bough/tree/walker.hpp"
@@ -47,6 +48,52 @@ void for_chunks_of_columns(int begin, int full, int size, double flops, const tr
   } else {
     walker->for_each_chunk(count, 1, tree::make_chunk(run));
   }
+}
+
+/// Eliminates pivots within columns [k, end) of a front, and updates only these. A column that the rule rejects goes to
+/// the end and is tried again once others have changed it. Returns the new k; -1 if an entry is not finite.
+/// kind.take_pivot(k, open, end, least) eliminates a pivot in place k, of rows among the candidates [k, open), and
+/// returns its number of rows: 0 where there is none. kind.exchange(k, open) exchanges two unknowns.
+template <class Kind>
+int eliminate_panel(const FrontMatrix& f, const Kind& kind, const PivotRule& rule, int k, int end) {
+  int open = end;  // columns [open, end) were rejected in this round
+  bool progress = false;
+  for (;;) {
+    if (k == open) {
+      if (open == end || !progress) return k;
+      open = end;  // the rejected columns have changed: another round
+      progress = false;
+    }
+    const double largest = find_largest(kind.parts.top(k), k, f.size);
+    if (!std::isfinite(largest)) return -1;
+    const int rows = kind.take_pivot(k, open, end, rule.least_beside(largest, f.columns[k]));
+    k += rows;
+    progress = progress || rows > 0;
+    if (rows == 0) kind.exchange(k, --open);
+  }
+}
+
+/// Eliminates all fully summed unknowns of a front that the rule accepts, panel by panel. kind.catch_up(begin, k,
+/// first, last) updates columns [first, last), at most a chunk and all on one side of `full`, by the pivots [begin, k);
+/// kind.flops: of an entry and a pivot. Returns the number of pivots, or -1 if an entry is not finite.
+template <class Kind>
+int eliminate_in_panels(const FrontMatrix& f, const Kind& kind, const PivotRule& rule, const tree::Walker* walker) {
+  int k = 0, tried = 0;  // unknowns [k, tried) were rejected by earlier panels and are tried again with the next one
+  while (tried < f.full) {
+    const int begin = k, end = end_of_panel(tried, f.full, outer_panel);
+    while (tried < end) {
+      const int inner_begin = k, inner_end = end_of_panel(tried, end, inner_panel);
+      k = eliminate_panel(f, kind, rule, k, inner_end);
+      if (k < 0) return -1;
+      for (int j = inner_end; k > inner_begin && j < end; j += tiles::chunk)
+        kind.catch_up(inner_begin, k, j, std::min(end, j + tiles::chunk));
+      tried = inner_end;
+    }
+    if (k == begin) continue;
+    const auto update = [&](int first, int last) { kind.catch_up(begin, k, first, last); };
+    for_chunks_of_columns(end, f.full, f.size, kind.flops * (k - begin) * (f.size - k), walker, update);
+  }
+  return k;
 }
 
 /// Symmetric: updates columns [first, last), at most a chunk and all on one side of `full`, by the pivots [begin, k),

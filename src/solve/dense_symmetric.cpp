@@ -82,39 +82,6 @@ void eliminate_two(const FrontParts& v, double* d, int k, int end) {
   }
 }
 
-/// Eliminates pivots within columns [k, end), and updates only these. Returns the new k; -1 if an entry is not finite.
-int eliminate_symmetric_panel(const FrontParts& v, FrontMatrix& f, const PivotRule& rule, int k, int end) {
-  int open = end;  // columns [open, end) were rejected in this round
-  bool progress = false;
-  for (;;) {
-    if (k == open) {
-      if (open == end || !progress) return k;
-      open = end;
-      progress = false;
-    }
-    const double* column = v.top(k);
-    const double largest = find_largest(column, k, f.size);
-    if (!std::isfinite(largest)) return -1;
-    const double least = rule.least_beside(largest, f.columns[k]);
-    if (std::abs(column[k]) >= least) {
-      eliminate_one(v, f.d, k, end);
-      ++k;
-      progress = true;
-      continue;
-    }
-    const int partner = find_partner(v, rule, k, open);
-    if (partner >= 0) {
-      swap_unknowns(v, f, k + 1, partner);
-      eliminate_two(v, f.d, k, end);
-      k += 2;
-      progress = true;
-    } else {
-      --open;
-      swap_unknowns(v, f, k, open);
-    }
-  }
-}
-
 /// (L D)^T of rows [first, first + n), pivots [from, to), packed; groups filled up with zeros.
 void pack_scaled(const FrontParts& v, const double* d, int from, int to, int first, int n, double* packed) {
   using namespace tiles;
@@ -158,24 +125,37 @@ void catch_up_symmetric(const FrontParts& v, const double* d, int begin, int k, 
   }
 }
 
-int eliminate_symmetric(FrontMatrix& f, const PivotRule& rule, const tree::Walker* walker) {
-  const FrontParts v(f);
-  int k = 0, tried = 0;  // unknowns [k, tried) were rejected by earlier panels and are tried again with the next one
-  while (tried < f.full) {
-    const int begin = k, end = end_of_panel(tried, f.full, outer_panel);
-    while (tried < end) {
-      const int inner_begin = k, inner_end = end_of_panel(tried, end, inner_panel);
-      k = eliminate_symmetric_panel(v, f, rule, k, inner_end);
-      if (k < 0) return -1;
-      for (int j = inner_end; k > inner_begin && j < end; j += tiles::chunk)
-        catch_up_symmetric(v, f.d, inner_begin, k, j, std::min(end, j + tiles::chunk));
-      tried = inner_end;
+namespace {
+
+/// The diagonal is preferred as a pivot; else it has two rows, of the candidate and of a partner.
+struct Symmetric {
+  const FrontParts& parts;
+  FrontMatrix& front;
+  const PivotRule& rule;
+  static constexpr double flops = 1.0;
+
+  int take_pivot(int k, int open, int end, double least) const {
+    if (std::abs(parts.top(k)[k]) >= least) {
+      eliminate_one(parts, front.d, k, end);
+      return 1;
     }
-    if (k == begin) continue;
-    const auto update = [&](int first, int last) { catch_up_symmetric(v, f.d, begin, k, first, last); };
-    for_chunks_of_columns(end, f.full, f.size, 1.0 * (k - begin) * (f.size - k), walker, update);
+    const int partner = find_partner(parts, rule, k, open);
+    if (partner < 0) return 0;
+    swap_unknowns(parts, front, k + 1, partner);
+    eliminate_two(parts, front.d, k, end);
+    return 2;
   }
-  return k;
+  void exchange(int k, int open) const { swap_unknowns(parts, front, k, open); }
+  void catch_up(int begin, int k, int first, int last) const {
+    catch_up_symmetric(parts, front.d, begin, k, first, last);
+  }
+};
+
+}  // namespace
+
+int eliminate_symmetric(FrontMatrix& f, const PivotRule& rule, const tree::Walker* walker) {
+  const FrontParts parts(f);
+  return eliminate_in_panels(f, Symmetric{parts, f, rule}, rule, walker);
 }
 
 int move_negligible_last_symmetric(FrontMatrix& f, int pivots, const Negligible& negligible, const bool* is_candidate) {

@@ -17,8 +17,8 @@ RoundOff::RoundOff(const plan::Plan& plan, const UnknownPlaces& places, const Li
       linear_(linear),
       elements_(elements),
       lengths_(lengths),
-      sums_(places.size()),
-      is_length_(places.size(), 0) {
+      is_length_(places.size(), 0),
+      sums_(places.size()) {
   for (int b = 0; b < places.num_blocks(); ++b)
     if (linear.owners().node(b) >= 0)
       for (int i = 0; i < places.block_size(b); ++i)

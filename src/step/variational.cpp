@@ -290,7 +290,7 @@ void VariationalOn<G>::evaluate_tangent(const elements::Slopes& slopes, double h
           const int law = plan.signals[static_cast<std::size_t>(signals[static_cast<std::size_t>(s)])].law;
           elements::evaluate_law_slope(e, field, no_multipliers,
                                        joint < 0 ? 0.0 : base_.turns[static_cast<std::size_t>(joint)], law, column);
-          for (int k = n - rows; k < n; ++k) column[k] *= 2.0;
+          for (int row = n - rows; row < n; ++row) column[row] *= 2.0;
         });
         system_.elements().set_matrix(id, all, extended.data());
       });

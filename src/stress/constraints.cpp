@@ -191,7 +191,7 @@ void folded(Bench& bench) { slider_cranks(bench, crank, 1e-5); }
 
 void contradiction(Bench& bench) {
   scene::Scene s = door(1, 0.0);
-  s.joints[0].drives = {{"angle", false, laws::make_ramp(0.0, 1.0, 0.0, 1.0)}};
+  s.joints[0].drives = {{"angle", false, laws::make_ramp(0.0, 1.0, 0.0, 1.0), {}}};
   s.joints.push_back(scene::make_joint("stop", scene::JointKind::fixed, "", {{0.5, 0, 0}}, "door", Vec3::zero()));
   bench.expect_refusal(s, {"stop", "hinge 0"});
 }

@@ -5,20 +5,13 @@
 
 #include "bough/blocks/at.hpp"
 #include "bough/io/number_text.hpp"
+#include "bough/records/no_recorder.hpp"
 #include "bough/run/simulate.hpp"
 #include "bough/scene/joint_kinds.hpp"
 
 namespace bough::study {
 
 namespace {
-
-class NoRecorder final : public records::Recorder {
- public:
-  void begin(const records::HistoryHeader&) override {}
-  void row(const records::HistoryRow&) override {}
-  void motion(const records::MotionFrame&) override {}
-  void end(const records::Summary&) override {}
-};
 
 /// One entry of a column: its own contributions and those of its mirror.
 struct Entry {
@@ -176,7 +169,7 @@ std::optional<LinearSystem> make_linear_system(const scene::Scene& scene, const 
     fill(system, state, attempt, out.emplace());
     return false;
   };
-  NoRecorder recorder;
+  records::NoRecorder recorder;
   const records::Summary summary = run::simulate(scene, options, recorder);
   if (!out)
     cause = summary.status == records::RunStatus::failed

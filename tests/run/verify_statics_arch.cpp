@@ -11,7 +11,7 @@
 namespace bough::verify {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// R = 100, EI = 1e6, EA = GA = 1e8; clamped left, hinged right; the crown goes down by `depth` at factor 1, as far
 /// as it likes sideways.

@@ -16,7 +16,7 @@
 namespace bough::verify {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double distance(const Vec3<double>& a, const Vec3<double>& b) {
   const Vec3<double> d = a - b;

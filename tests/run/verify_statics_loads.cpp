@@ -10,7 +10,7 @@
 namespace bough::verify {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr scene::LoadAxes space = scene::LoadAxes::space, body = scene::LoadAxes::body;
 
 Vec3<double> vector_of(const Outcome& o, const std::string& sensor, const char* const (&names)[3]) {

@@ -46,7 +46,7 @@ std::string library_bits() {
 }
 
 /// JSON on one line. Line ends occur only between values, since strings escape theirs.
-std::string one_line(const std::string& json) {
+std::string joined_lines(const std::string& json) {
   std::string line;
   for (std::size_t i = 0; i < json.size(); ++i) {
     if (json[i] != '\n') {
@@ -69,9 +69,9 @@ std::string record_of(const std::string& key, const CaseResult& r) {
   json.begin_array();
   for (const double x : {r.cost.wall_seconds, r.cost.cpu_seconds, r.cost.peak_bytes}) json.value(x);
   json.end_array();
-  json.member("report", std::string_view(one_line(text_of(r.report))));
+  json.member("report", std::string_view(joined_lines(text_of(r.report))));
   json.end_object();
-  const std::string line = one_line(json.text());
+  const std::string line = joined_lines(json.text());
   return io::digest_of(line) + " " + line + "\n";
 }
 
