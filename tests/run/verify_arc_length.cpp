@@ -105,8 +105,29 @@ TEST(ArcLength, follows_signals_and_states_past_limit_points) {
   EXPECT_NEAR(run.summary.limit_points[1].load_factor, least, 1e-8);
 }
 
-// A steep truss whose block may leave sideways loses stability where l^2 - l^3 = b^2, before its limit point at l^3 =
-// b^2. A step that holds both is repeated with a shorter length, so that the bifurcation is told.
+/// The truss with a block that may leave sideways, 2 b wide, followed past two limit points in steps of one length.
+support::Outcome follow_steep_truss(double b, double right_stiffness, double step) {
+  const auto spring = [](const char* name, double x, double k) {
+    return std::string(R"({"name": ")") + name + R"(", "first": {"to": "ground", "position": [)" + support::text(x) +
+           R"(, 0, 0]}, "second": "block", "rest_length": 1, "stiffness": )" + support::text(k) + "}";
+  };
+  const std::string length = support::text(step);
+  return support::run(support::scene_of(R"({
+    "bodies": [{"name": "block", "kind": "point_mass", "mass": 1, "position": [0, )" +
+                                        support::text(std::sqrt(1.0 - b * b)) + R"(, 0]}],
+    "motions": [{"at": "block", "z": 0}],
+    "springs": [)" + spring("left", -b, stiffness) +
+                                        ", " + spring("right", b, right_stiffness) + R"(],
+    "loads": [{"name": "push", "at": "block", "force": [0, -1000, 0]}],
+    "sensors": [{"name": "block", "kind": "position", "at": "block"}],
+    "analysis": {"kind": "static", "unstable": true, "tolerance": 1e-11,
+      "arc_length": {"step": )" + length +
+                                        R"(, "largest_step": )" + length +
+                                        R"(, "after_limit_points": 2, "end_load_factor": 0.2}}})"));
+}
+
+// It loses stability where l^2 - l^3 = b^2, before its limit point at l^3 = b^2. A step that holds both is repeated with
+// a shorter length, so that the bifurcation is told.
 TEST(ArcLength, a_bifurcation_and_a_limit_point_within_one_step_are_told_apart) {
   const double b = 0.3, load = 1000.0;
   double l = 0.9;  // the larger root
@@ -114,19 +135,7 @@ TEST(ArcLength, a_bifurcation_and_a_limit_point_within_one_step_are_told_apart) 
   const auto load_at = [&](double length) {
     return 2.0 * stiffness * std::sqrt(length * length - b * b) * (1.0 / length - 1.0) / load;
   };
-  const support::Outcome run = support::run(support::scene_of(R"({
-    "bodies": [{"name": "block", "kind": "point_mass", "mass": 1, "position": [0, )" +
-                                                              support::text(std::sqrt(1.0 - b * b)) + R"(, 0]}],
-    "motions": [{"at": "block", "z": 0}],
-    "springs": [
-      {"name": "left", "first": {"to": "ground", "position": [-0.3, 0, 0]}, "second": "block", "stiffness": 1000,
-       "rest_length": 1},
-      {"name": "right", "first": {"to": "ground", "position": [0.3, 0, 0]}, "second": "block", "stiffness": 1000,
-       "rest_length": 1}],
-    "loads": [{"name": "push", "at": "block", "force": [0, -1000, 0]}],
-    "sensors": [{"name": "block", "kind": "position", "at": "block"}],
-    "analysis": {"kind": "static", "unstable": true, "tolerance": 1e-11,
-      "arc_length": {"step": 0.6, "largest_step": 0.6, "after_limit_points": 2, "end_load_factor": 0.2}}})"));
+  const support::Outcome run = follow_steep_truss(b, stiffness, 0.6);
   ASSERT_TRUE(run.ok()) << run.summary.cause;
   EXPECT_GE(run.summary.steps.rejected, 1);
   ASSERT_EQ(run.summary.limit_points.size(), 2u);
@@ -135,6 +144,30 @@ TEST(ArcLength, a_bifurcation_and_a_limit_point_within_one_step_are_told_apart) 
   EXPECT_TRUE(run.summary.bifurcations[0].is_lost);
   EXPECT_NEAR(run.summary.bifurcations[0].load_factor, load_at(l), 1e-6);
   EXPECT_NE(run.summary.bifurcations[0].mode.find("along (1, 0, 0)"), std::string::npos);
+}
+
+// With a softer spring on one side the block leans over and reaches a limit point instead, and no branches cross. Steps
+// beyond that point end on another branch, which is seen and told by none as a bifurcation, whatever their length.
+TEST(ArcLength, steps_that_end_on_another_branch_are_repeated) {
+  const struct {
+    double b, right_stiffness;
+    std::vector<double> steps;
+  } trusses[] = {{0.2, 900.0, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8}}, {0.33, 600.0, {1.0}}};
+  for (const auto& truss : trusses) {
+    const support::Outcome fine = follow_steep_truss(truss.b, truss.right_stiffness, 0.01);
+    ASSERT_TRUE(fine.ok()) << fine.summary.cause;
+    ASSERT_FALSE(fine.summary.limit_points.empty());
+    EXPECT_EQ(fine.summary.steps.rejected, 0);
+    EXPECT_TRUE(fine.summary.bifurcations.empty());
+    for (const double step : truss.steps) {
+      const support::Outcome run = follow_steep_truss(truss.b, truss.right_stiffness, step);
+      ASSERT_TRUE(run.ok()) << run.summary.cause;
+      EXPECT_GE(run.summary.steps.rejected, 1) << step;
+      EXPECT_TRUE(run.summary.bifurcations.empty()) << step;
+      ASSERT_FALSE(run.summary.limit_points.empty()) << step;
+      EXPECT_NEAR(run.summary.limit_points[0].load_factor, fine.summary.limit_points[0].load_factor, 1e-8) << step;
+    }
+  }
 }
 
 TEST(ArcLength, ends_at_the_first_passing_of_its_load_or_at_a_limit_point) {
