@@ -34,11 +34,10 @@ install(TARGETS bough_base EXPORT boughTargets)
 
 # What only this project's own files compile with; never exported.
 add_library(bough_warnings INTERFACE)
+# In a unity build a file hides names of the file before it. The presets for development are none, and warn of hiding.
 target_compile_options(bough_warnings INTERFACE
-  -Wall -Wextra -Wconversion -Wshadow
+  -Wall -Wextra -Wconversion $<$<NOT:$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wshadow>
   $<$<BOOL:${BOUGH_WARNINGS_AS_ERRORS}>:-Werror>)
-# In a unity build, names of one file are seen in the next. The presets for development are none, and show what is hidden.
-set(BOUGH_UNITY_OPTIONS $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-shadow> $<$<AND:$<BOOL:${CMAKE_UNITY_BUILD}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # False alarms of g++ 12: its AVX-512 header warns about its own undefined registers in every file, its string
   # about concatenation, and inlined vectors about writes that cannot happen.
@@ -149,9 +148,7 @@ function(bough_add_layer_target target suffix)
     target_compile_options(${target} PRIVATE ${BOUGH_MODERATE_OPTIMISATION})
   endif()
   if(name IN_LIST BOUGH_LAYERS_OF_STEPS AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
-    set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)  # what is inlined into kernels does not depend on neighbours
-  else()
-    target_compile_options(${target} PRIVATE ${BOUGH_UNITY_OPTIONS})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)  # neighbours would change what is inlined into kernels
   endif()
   add_dependencies(${target} bough_version)
   set_target_properties(${target} PROPERTIES

@@ -384,18 +384,23 @@ TEST(DrivenParts, a_bushing_that_softens_balances_its_energy) {
       }
 }
 
-// Statics: 20 N against 128 (1 + 3 x^2) x, the factor a formula of the place, with exact derivatives.
-TEST(DrivenParts, a_bushing_stiffens_with_its_way_in_statics) {
-  for (const char* without : {"[]", "[\"planar\"]"}) {
-    const Outcome out = run_ok(scene_of(R"-({"analysis": {"kind": "static", "tolerance": 1e-12},
+/// 20 N on a mass against 128 (1 + 3 x^2) x of a bushing, whose factor is a formula of the place.
+std::string stiffening_pad(const std::string& analysis) {
+  return R"-({"analysis": )-" + analysis + R"-(,
   "bodies": [{"name": "mass", "mass": 2, "inertia": [0.5, 0.5, 0.5]}],
   "bushings": [{"name": "pad", "first": "ground", "second": "mass", "stiffness": [128, 90, 90, 9, 9, 9],
     "stiffness_factor": {"signal": "factor"}}],
   "loads": [{"at": "mass", "force": [20, 0, 0]}],
   "signals": [{"name": "way", "kind": "position", "at": "mass", "axis": "x"},
     {"name": "factor", "kind": "formula", "expression": "1 + 3*way^2"}],
-  "sensors": [{"name": "at", "kind": "position", "at": "mass"}, {"name": "strain", "kind": "strain_energy"}]})-",
-                                        {std::string("/without=") + without}));
+  "sensors": [{"name": "at", "kind": "position", "at": "mass"}, {"name": "strain", "kind": "strain_energy"}]})-";
+}
+
+// Statics, with exact derivatives: Newton's method needs few iterations.
+TEST(DrivenParts, a_bushing_stiffens_with_its_way_in_statics) {
+  for (const char* without : {"[]", "[\"planar\"]"}) {
+    const Outcome out = run_ok(
+        scene_of(stiffening_pad(R"({"kind": "static", "tolerance": 1e-12})"), {std::string("/without=") + without}));
     double x = 0.1;
     for (int k = 0; k < 50; ++k) x -= (128.0 * (x + 3.0 * x * x * x) - 20.0) / (128.0 * (1.0 + 9.0 * x * x));
     EXPECT_NEAR(out.history.last("at.x"), x, 1e-12);
@@ -406,15 +411,8 @@ TEST(DrivenParts, a_bushing_stiffens_with_its_way_in_statics) {
 
 // The same along the path of equilibria: its load factor follows from the place in closed form at every row.
 TEST(DrivenParts, a_bushing_stiffens_with_its_way_on_a_path_by_arc_length) {
-  const Outcome out = run_ok(scene_of(R"-({"analysis": {"kind": "static", "tolerance": 1e-11,
-    "arc_length": {"step": 0.05, "largest_step": 0.1}},
-  "bodies": [{"name": "mass", "mass": 2, "inertia": [0.5, 0.5, 0.5]}],
-  "bushings": [{"name": "pad", "first": "ground", "second": "mass", "stiffness": [128, 90, 90, 9, 9, 9],
-    "stiffness_factor": {"signal": "factor"}}],
-  "loads": [{"at": "mass", "force": [20, 0, 0]}],
-  "signals": [{"name": "way", "kind": "position", "at": "mass", "axis": "x"},
-    {"name": "factor", "kind": "formula", "expression": "1 + 3*way^2"}],
-  "sensors": [{"name": "at", "kind": "position", "at": "mass"}]})-"));
+  const Outcome out = run_ok(scene_of(stiffening_pad(R"({"kind": "static", "tolerance": 1e-11,
+    "arc_length": {"step": 0.05, "largest_step": 0.1}})")));
   ASSERT_GT(out.history.times.size(), 2u);
   for (std::size_t r = 0; r < out.history.times.size(); ++r) {
     const double x = out.history.rows[r][out.history.column("at.x")];

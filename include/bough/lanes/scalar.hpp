@@ -7,7 +7,7 @@
 #include <concepts>
 
 /// For the functions of a few lines on 3-vectors that kernels are made of: they are inlined even where the compiler's
-/// heuristic finds the caller too large.
+/// heuristic finds the caller too large. BOUGH_NOINLINE: for longer ones that are called at many places.
 #if defined(__GNUC__)
 #define BOUGH_INLINE inline __attribute__((always_inline))
 #define BOUGH_NOINLINE __attribute__((noinline))

@@ -3,7 +3,7 @@
 
 namespace bough::records {
 
-/// For runs of which only the summary is wanted.
+/// Discards rows and pictures of a run. Runs return their summary all the same.
 class NoRecorder final : public Recorder {
  public:
   void begin(const HistoryHeader&) override {}
