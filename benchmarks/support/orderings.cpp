@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "bough/blocks/at.hpp"
 #include "bough/tree/tree.hpp"
 #include "problem.hpp"
 
@@ -15,8 +16,6 @@
 namespace bough::bench {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Neighbours of every motion block once multiplier blocks are merged into the first motion block of their element.
 struct NodeGraph {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bough/blocks/at.hpp"
 #include "bough/plan/plan.hpp"
 #include "bough/scene/components.hpp"
 #include "bough/step/options.hpp"
@@ -12,8 +13,6 @@
 namespace bough::bench {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// A linear congruential generator (Knuth's constants), which gives the same numbers on every machine.
 class Random {
