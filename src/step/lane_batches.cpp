@@ -66,30 +66,61 @@ void LaneBatches<G>::place_rows(const solve::ElementBatch& batch, int num_rows, 
 }
 
 template <class G>
-void LaneBatches<G>::gather_singles(const std::vector<int>& visit_of_batch, const solve::SolverVisits& visits) {
+bool LaneBatches<G>::may_share(int a, int b) const {
+  if (a == b) return true;
+  const plan::ElementPlace one = plan_->directory[static_cast<std::size_t>(a)],
+                           other = plan_->directory[static_cast<std::size_t>(b)];
+  if (one.array != other.array || reads_signals(a) || reads_signals(b)) return false;
+  bool may = false;
+  plan::with_element(plan::arrays_on<G>(*plan_), one, [&](const auto& x) {
+    plan::with_element(plan::arrays_on<G>(*plan_), other, [&](const auto& y) {
+      if constexpr (std::is_same_v<decltype(x), decltype(y)>) may = may_share_lanes(x, y);
+    });
+  });
+  return may;
+}
+
+template <class G>
+void LaneBatches<G>::split_by_kind(std::vector<int>& visit_of_batch) {
+  std::vector<solve::ElementBatch> pieces;
+  std::vector<int> of_piece;
+  for (std::size_t b = 0; b < batches_.size(); ++b) {
+    solve::ElementBatch rest = batches_[b];
+    for (bool is_whole = true;; is_whole = false) {
+      const auto first = std::find_if(rest.element.begin(), rest.element.end(), [](int id) { return id >= 0; });
+      if (first == rest.element.end()) break;
+      solve::ElementBatch piece = rest;
+      const int kind = *first;
+      bool leaves_some = false;
+      for (std::size_t l = 0; l < solve::lanes_wide; ++l) {
+        if (rest.element[l] < 0) continue;
+        const bool takes = may_share(kind, rest.element[l]);
+        (takes ? rest : piece).element[l] = -1;
+        leaves_some |= !takes;
+      }
+      if (leaves_some || !is_whole) piece.stride = 1;  // its lanes are not those of the solver
+      pieces.push_back(piece);
+      of_piece.push_back(visit_of_batch[b]);
+    }
+  }
+  batches_ = std::move(pieces);
+  visit_of_batch = std::move(of_piece);
+}
+
+template <class G>
+void LaneBatches<G>::fill_batches(const std::vector<int>& visit_of_batch, const solve::SolverVisits& visits) {
   constexpr std::size_t near_by = 256;  ///< distance in batches within which elements share the cache
   struct Open {
     std::size_t batch = 0;
-    plan::ElementPlace first;
-    std::size_t count = 1;
+    int first = 0;
+    std::size_t count = 0;
   };
   std::vector<Open> open;
-  const auto share = [this](plan::ElementPlace a, plan::ElementPlace b) {
-    if (a.array != b.array) return false;
-    bool may = false;
-    plan::with_element(plan::arrays_on<G>(*plan_), a, [&](const auto& x) {
-      plan::with_element(plan::arrays_on<G>(*plan_), b, [&](const auto& y) {
-        if constexpr (std::is_same_v<decltype(x), decltype(y)>) may = may_share_lanes(x, y);
-      });
-    });
-    return may;
-  };
   for (std::size_t b = 0; b < batches_.size(); ++b) {
     solve::ElementBatch& batch = batches_[b];
     std::array<int, solve::lanes_wide> loose = batch.element;
     const auto end = std::remove_if(loose.begin(), loose.end(), [](int id) { return id < 0; });
-    const auto present = end - loose.begin();
-    if (present == 0 || present >= least_lanes) continue;
+    if (end - loose.begin() == solve::lanes_wide) continue;
     batch.element.fill(-1);
     batch.stride = 1;  // its lanes no longer match those of the solver
     const auto is_below = [&](int lower, int upper) {
@@ -99,25 +130,10 @@ void LaneBatches<G>::gather_singles(const std::vector<int>& visit_of_batch, cons
     std::erase_if(open, [&](const Open& o) {
       return b - o.batch > near_by || !is_below(visit_of_batch[o.batch], visit_of_batch[b]);
     });
-    std::size_t staying = 0;
-    for (const int* id = loose.data(); id != loose.data() + present; ++id) {
-      const plan::ElementPlace place = plan_->directory[static_cast<std::size_t>(*id)];
-      const bool is_alone = reads_signals(*id);
-      const auto group =
-          is_alone ? open.end()
-                   : std::find_if(open.begin(), open.end(), [&](const Open& o) { return share(o.first, place); });
-      if (group == open.end()) {
-        batch.element[staying++] = *id;
-        if (staying == 1 && !is_alone)
-          open.push_back({b, place});
-        else if (open.empty())
-          continue;
-        else if (open.back().batch == b)  // the batch holds two kinds: they are evaluated one by one
-          open.pop_back();
-        continue;
-      }
+    for (const int* id = loose.data(); id != end; ++id) {
+      auto group = std::find_if(open.begin(), open.end(), [&](const Open& o) { return may_share(o.first, *id); });
+      if (group == open.end()) group = open.insert(open.end(), {b, *id});
       batches_[group->batch].element[group->count++] = *id;
-      if (group->batch == b) ++staying;
       if (group->count == solve::lanes_wide) open.erase(group);
     }
   }
@@ -149,7 +165,8 @@ void LaneBatches<G>::make(const plan::Plan& plan, std::span<const solve::Element
     for (int b = visits.batch_begin[static_cast<std::size_t>(v)];
          b < visits.batch_begin[static_cast<std::size_t>(v) + 1]; ++b)
       visit_of_batch[static_cast<std::size_t>(b)] = v;
-  gather_singles(visit_of_batch, visits);
+  split_by_kind(visit_of_batch);
+  fill_batches(visit_of_batch, visits);
   std::vector<solve::ElementBatch> kept;
   for (std::size_t b = 0; b < batches_.size(); ++b) {
     if (std::all_of(batches_[b].element.begin(), batches_[b].element.end(), [](int id) { return id < 0; })) continue;

@@ -52,11 +52,11 @@ class LaneBatches {
   using Arrays = plan::ArraysOn<G>;
   using Field = elements::FieldOn<G, double>;
 
-  /// Starts from the batches of the solver. Elements of batches with fewer than `least_lanes` elements are regrouped
-  /// with elements of the same kind from nearby batches, in the first of these, if that belongs to the same visit of
-  /// the solver's walks or to one below it, whose work comes before. A batch is evaluated in lanes if it
-  /// then holds at least `least_lanes` elements that differ only in the values of their data. Joints that hold nodes at
-  /// rest are omitted, since the solver does not see them.
+  /// Starts from the batches of the solver, divided into elements that differ only in the values of their data. Batches
+  /// that are then not full are filled with such elements of nearby ones, if they belong to the same visit of the
+  /// solver's walks or to one below that of the elements, whose work comes before. A batch is evaluated in lanes if it
+  /// then holds at least `least_lanes` elements. Joints that hold nodes at rest are omitted, since the solver does not
+  /// see them.
   void make(const plan::Plan& plan, std::span<const solve::ElementBatch> batches, const solve::SolverVisits& visits,
             const TrimmedElements* trimmed);
 
@@ -88,7 +88,12 @@ class LaneBatches {
     int array, index;
     std::size_t element;  ///< one of the eight, in the plan's array
   };
-  void gather_singles(const std::vector<int>& visit_of_batch, const solve::SolverVisits& visits);
+  /// Whether two elements differ only in the values of their data.
+  bool may_share(int a, int b) const;
+  /// Separates the elements of a batch that may not share lanes: the solver puts together what has equal unknowns.
+  void split_by_kind(std::vector<int>& visit_of_batch);
+  /// Puts the elements of batches that are not full together.
+  void fill_batches(const std::vector<int>& visit_of_batch, const solve::SolverVisits& visits);
   void place_rows(const solve::ElementBatch& batch, int num_rows, Slot& slot);
   /// Whether the solver sees nothing of an element.
   bool leaves_out(int element) const;
