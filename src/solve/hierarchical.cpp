@@ -104,6 +104,7 @@ FactorStatus Hierarchical::State::factor_all(const tree::Walker& walker, VisitWo
     next_measurement = 0;
     check_all_symmetric();
     if (is_symmetric()) scales.row = scales.column;  // equal except for the order of a sum
+    for (std::size_t u = 0; u < inverse_column.size(); ++u) inverse_column[u] = 1.0 / scales.column[u];
     lane_scales.set(lanes, tree, scales);
     std::fill(leaves_to_root.begin(), leaves_to_root.end(), char{0});
     std::fill(leaving_lanes.begin(), leaving_lanes.end(), LaneSet{0});
@@ -309,7 +310,7 @@ SolverCounters Hierarchical::counters() const {
   std::size_t doubles = s.factor_pool.size() + s.schur_pool.size() + s.vector_pool.size() +
                         s.null_space.left.capacity() + s.null_space.right.capacity();
   for (const std::vector<double>* v :
-       {&s.scales.row, &s.scales.column, &s.scales.weight, &s.rhs, &s.residual, &s.correction})
+       {&s.scales.row, &s.scales.column, &s.inverse_column, &s.scales.weight, &s.rhs, &s.residual, &s.correction})
     doubles += v->capacity();
   for (const Enlarged& e : s.enlarged) doubles += e.a.capacity() + e.vector.capacity();
   for (const LaneDoubles* pool : {&s.lane_scratch, &s.lane_tops, &s.lane_factors, &s.lane_vectors})

@@ -19,6 +19,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   scales.row.assign(n, 1.0);
   scales.diagonal.assign(n, 0.0);
   scales.column.assign(n, 1.0);
+  inverse_column.assign(n, 1.0);
   scales.weight.assign(n, 1.0);
   is_constraint = std::make_unique<bool[]>(n);
   for (int b = 0; b < graph.num_blocks(); ++b)
@@ -94,6 +95,7 @@ void Hierarchical::State::size_factors() {
       group_scratch[g] = lane_scratch.data() + (scratch -= lanes.groups[g].scratch * lanes_wide);
   constexpr std::size_t second_cache = std::size_t{2} << 20;
   reads_factors_ahead = sizeof(double) * lane_factors.size() > second_cache;
+  fronts_are_far = sizeof(double) * factor_pool.size() > second_cache;
   const std::size_t bytes = sizeof(double) * (lane_factors.size() + at(lanes.num_values));
   exceeds_caches = options.near_bytes > 0 ? bytes > at(options.near_bytes) : exceeds_share_of_caches(bytes);
 }

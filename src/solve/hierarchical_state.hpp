@@ -124,6 +124,7 @@ struct Hierarchical::State {
   LanePlan lanes;
   ElementStore elements;
   Scales scales;
+  std::vector<double> inverse_column;  ///< 1 / scales.column, exact
   bool scales_wanted = true;
   std::unique_ptr<bool[]> is_constraint;  ///< by unknown
 
@@ -164,6 +165,7 @@ struct Hierarchical::State {
   /// Matrices and factors do not stay in the caches between walks: they are prefetched, and written past the caches.
   bool exceeds_caches = false;
   bool reads_factors_ahead = false;   ///< factors do not stay in the nearer caches
+  bool fronts_are_far = false;        ///< the same of fronts on the scalar path
   double norm = 0.0;                  ///< largest row sum of the scaled matrix that was measured last
   std::int64_t next_measurement = 0;  ///< number of factorizations after which matrices are measured again
 
@@ -251,6 +253,7 @@ struct Hierarchical::State {
   void forward_front(tree::FrontId f);
   void gather_rhs(tree::FrontId f, double* gathered);
   void backward_front(tree::FrontId f);
+  void prefetch_front(tree::FrontId f) const;
   bool checks() const { return options.check != SolveCheck::none; }
   void take(const double* b, double* x_out, bool looks_again);
   void measure_matrices(const tree::Walker& walker);

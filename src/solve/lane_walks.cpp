@@ -117,8 +117,11 @@ void Hierarchical::State::forward_group(int index) {
       }
     });
   const tree::SubdomainId s = group.subdomains.front();
-  for (tree::FrontId f = tree.subdomains[at(s)].front_begin; f < tree.subdomains[at(s)].front_end; ++f)
+  const tree::Subdomain& sub = tree.subdomains[at(s)];
+  for (tree::FrontId f = sub.front_begin; f < sub.front_end; ++f) {
+    if (fronts_are_far && f + 1 < sub.front_end) prefetch_front(f + 1);  // others may be factored at the same time
     forward_front(f);
+  }
   if (options.elimination == Elimination::augmented && s != tree.root()) correct_forward(s);
 }
 
@@ -130,6 +133,7 @@ void Hierarchical::State::backward_group(int index) {
     });
   const tree::Subdomain& s = tree.subdomains[at(group.subdomains.front())];
   for (tree::FrontId f = s.front_end; f-- > s.front_begin;) {
+    if (fronts_are_far && f > s.front_begin) prefetch_front(f - 1);
     backward_front(f);
     hand_down(f);
   }

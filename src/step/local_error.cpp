@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <iterator>
 #include <limits>
+#include <type_traits>
 
 #include "bough/motion/vectors_on.hpp"
 #include "bough/scene/sensor_kinds.hpp"
@@ -258,7 +259,14 @@ void LocalError::accept(const State& after) {
   previous_step_ = step_;
   has_previous_ = true;
   Largest velocity;
-  for (const elements::NodeMotion& n : nodes_in_space(plan_, after)) velocity.include(n.v);
+  after.visit([&]<class G>(const NodesOn<G>& nodes) {
+    for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
+      if constexpr (std::is_same_v<G, motion::Se3>)
+        velocity.include(nodes.motion[n].v);
+      else  // without the poses in space, which would cost most of a measurement of a planar scene
+        velocity.include(plan_.unknowns.expanded(&nodes.motion[n].v[0], n));
+    }
+  });
   for (WatchedState& s : states_) {
     s.trend_before = s.trend;
     s.size = std::max(s.size, std::abs(after.signals.value[s.signal]));
