@@ -86,11 +86,12 @@ void add_ground_reaction_if_any(const E& e, const PortMotion<double>* p, const V
 }
 
 template <int N>
-Measures measure_beam(const Beam<N>& beam, const Field& field) {
+Measures measure_beam(const Beam<N>& beam, const Field& field, bool with_energies) {
   PortMotion<double> p[N];
   Vec3<double> anchor;
   eval_ports_from_inertial(beam, field, p, anchor);
-  Measures m = begin_measures(beam, field, 0.0);
+  Measures m;
+  if (with_energies) m = begin_measures(beam, field, 0.0);
   if (field.around.has_inertia && beam.has_damping) {
     using G = motion::Se3;
     BeamRates<G, double, N> rates;
@@ -108,16 +109,16 @@ Measures measure_beam(const Beam<N>& beam, const Field& field) {
 }  // namespace
 
 template <>
-Measures measure(const Beam<2>& e, const Field& field, const double*, double, bool) {
-  return measure_beam(e, field);
+Measures measure(const Beam<2>& e, const Field& field, const double*, double, bool with_energies) {
+  return measure_beam(e, field, with_energies);
 }
 template <>
-Measures measure(const Beam<3>& e, const Field& field, const double*, double, bool) {
-  return measure_beam(e, field);
+Measures measure(const Beam<3>& e, const Field& field, const double*, double, bool with_energies) {
+  return measure_beam(e, field, with_energies);
 }
 template <>
-Measures measure(const Beam<4>& e, const Field& field, const double*, double, bool) {
-  return measure_beam(e, field);
+Measures measure(const Beam<4>& e, const Field& field, const double*, double, bool with_energies) {
+  return measure_beam(e, field, with_energies);
 }
 template <>
 Measures measure(const LineLoad<2>& e, const Field& field, const double*, double, bool) {
@@ -144,11 +145,12 @@ Measures measure(const Bushing& e, const Field& field, const double*, double, bo
   return measure_coupling(e, field, with_energies);
 }
 template <>
-Measures measure(const RigidBody& e, const Field& field, const double*, double, bool) {
+Measures measure(const RigidBody& e, const Field& field, const double*, double, bool with_energies) {
   PortMotion<double> p[1];
   Vec3<double> anchor;
   eval_ports_from_inertial(e, field, p, anchor);
-  Measures m = begin_measures(e, field, 0.0);
+  Measures m;
+  if (with_energies) m = begin_measures(e, field, 0.0);
   add_ground_reaction_if_any(e, p, anchor, field, m);
   return m;
 }

@@ -109,7 +109,7 @@ WorkMeter::WorkMeter(const plan::Plan& plan) {
       using E = std::decay_t<decltype(e)>;
       mass_ += total_mass(e);
       if (!is_watched(e)) return;
-      watched_.push_back({id, joint_of[id], total_mass(e), ports_.size(), drives_.size()});
+      watched_.push_back({id, joint_of[id], ports_.size(), drives_.size()});
       if constexpr (E::role == elements::Role::load)
         ports_.resize(ports_.size() + E::num_ports);
       else if constexpr (E::role == elements::Role::joint)
@@ -136,7 +136,7 @@ WorkMeter::WorkMeter(const plan::Plan& plan) {
 double WorkMeter::step(const step::System& system, const step::State& state) {
   const plan::Plan& plan = system.plan();
   const Field f = system.instant().field_of(state, nodes_, scratch_);
-  double work = 0.0, free_mass = mass_;
+  double work = 0.0;
   dissipation_rate_ = 0.0;
   force_ = Vec3<double>::zero();
   const auto advance_drive = [&work](Drive& drive, double way, double force) {
@@ -145,7 +145,6 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
     drive.force = force;
   };
   for (const Watched& w : watched_) {
-    free_mass -= w.mass;
     plan::with_element(plan.elements, plan.directory[w.element], [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
       const double* multipliers = nullptr;
@@ -177,7 +176,7 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
       force_ += lanes::linear_part(m.load);
     });
   }
-  force_ += free_mass * f.around.gravity;
+  force_ += mass_ * f.around.gravity;
   if (f.observer != nullptr) force_ = f.observer->pose.R * force_;  // elements give forces in the ground's axes
   return work;
 }

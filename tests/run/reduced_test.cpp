@@ -108,6 +108,24 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return most;
 }
 
+/// Energies, momentum, and moment of momentum about the normal of the plane if something turns.
+void expect_same_energies(Rig& few, Rig& all) {
+  results::EnergyMeter meter_of_few(few.plan), meter_of_all(all.plan);
+  const results::Energies a = meter_of_few.eval(few.system, few.state), b = meter_of_all.eval(all.system, all.state);
+  const double scale = b.kinetic + b.strain + std::abs(b.potential);
+  EXPECT_EQ(b.kinetic > 0.0, all.plan.is_dynamic);
+  EXPECT_NEAR(a.kinetic, b.kinetic, 1e-13 * scale);
+  EXPECT_NEAR(a.strain, b.strain, 1e-13 * scale);
+  EXPECT_NEAR(a.potential, b.potential, 1e-13 * scale);
+  const double largest = std::sqrt(lanes::dot(b.momentum, b.momentum));
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(a.momentum[i], b.momentum[i], 1e-13 * largest);
+  if (!few.plan.is_on<motion::Se2>() || !few.plan.is_dynamic) return;
+  const Vec3<double> normal = lanes::column(few.plan.axes, 2);
+  const double of_few = lanes::dot(lanes::angular_part(a.momentum), normal);
+  EXPECT_NE(of_few, 0.0);
+  EXPECT_NEAR(of_few, lanes::dot(lanes::angular_part(b.momentum), normal), 1e-13 * largest);
+}
+
 void compare(const scene::Scene& scene, const elements::Slopes& slopes) {
   scene::Scene spatial = scene;
   spatial.without = {"planar"};
@@ -121,6 +139,7 @@ void compare(const scene::Scene& scene, const elements::Slopes& slopes) {
     ASSERT_FALSE(rig->system.set_time(0.03));
     ASSERT_FALSE(rig->system.evaluate(rig->state, slopes, true));
   }
+  expect_same_energies(flat, whole);
   // The residual in space has no part out of the plane, and the part in it is that of the planar elements.
   const std::vector<double> residual = expand(flat, whole, flat.system.right_hand_side());
   EXPECT_LT(largest_difference(residual, whole.system.right_hand_side()), 1e-12 * largest_of(residual));
@@ -340,6 +359,28 @@ TEST(Unknowns, of_point_masses_are_three_each) {
   EXPECT_EQ(rig.plan.unknowns.motions, plan::Motions::translation);
   EXPECT_EQ(rig.system.places().size(), 6u);
   EXPECT_EQ(decision(rig.plan, "line").reason, "'a': it takes hold off the line");
+}
+
+TEST(Unknowns, of_point_masses_give_the_energies_in_space) {
+  for (const std::string where : {"[0, 0, -2]", "[0.5, 0.2, -2]"}) {
+    SCOPED_TRACE(where);
+    scene::Scene s = support::moved(masses(where), oblique());
+    Rig few(s);
+    ASSERT_FALSE(few.plan.is_on<motion::Se3>());
+    s.without = {"line", "translation", "planar"};
+    Rig all(s);
+    ASSERT_TRUE(all.plan.is_on<motion::Se3>());
+    for (std::size_t n = 0; n < few.plan.nodes.size(); ++n) {
+      const double x[] = {0.1, -0.2, 0.3}, v[] = {-0.7, 0.5, 0.9};
+      const Vec6<double> eta = few.plan.unknowns.expanded(x, n), velocity = few.plan.unknowns.expanded(v, n);
+      for (Rig* rig : {&few, &all}) {
+        step::move_node(rig->plan, rig->state, n, eta);
+        step::set_velocity(rig->plan, rig->state, n, velocity);
+        ASSERT_FALSE(rig->system.set_time(0.0));
+      }
+    }
+    expect_same_energies(few, all);
+  }
 }
 
 TEST(Unknowns, fewer_give_the_same_motion) {

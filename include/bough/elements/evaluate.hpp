@@ -169,8 +169,8 @@ void eval_magnitude(const RigidBodyOn<G, C>& e, const FieldOn<G, S>& field, cons
 }
 
 /// Energies, powers and momentum of one element with respect to the inertial frame; momentum and load are in the axes
-/// of the frame in which nodes are described. Without `energies`, those of joints, springs and bushings are omitted:
-/// the checks made in every step need only powers and loads.
+/// of the frame in which nodes are described. Without `with_energies`, energies, momentum and weight are omitted: the
+/// checks made in every step need only powers and the other loads.
 template <class E>
 Measures measure(const E& e, const Field& field, const double* multipliers, double turns, bool with_energies = true);
 

@@ -50,7 +50,6 @@ class WorkMeter {
   struct Watched {
     std::size_t element = 0;
     int joint = -1;
-    double mass = 0.0;  ///< mass whose weight is part of Measures::load; that of all elements is added as a whole [kg]
     std::size_t first_port = 0, first_drive = 0;  ///< in `ports_`, `drives_`
   };
   double step(const step::System& system, const step::State& state);  ///< work since the last call
