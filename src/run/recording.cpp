@@ -76,6 +76,10 @@ Recording::Recording(const scene::Scene& scene, const SimulateOptions& options, 
   s.follows_path = !plan.is_dynamic && step_options.arc_length.has_value();
   const bool tells_errors = integrates && step_options.integrator == scene::Integrator::generalized_alpha;
   if (tells_errors && scene.output.checks) error_watch_.emplace(plan);
+  // In a reduced model the nodes that sensors read are converted to space, and all of them for anything but motion.
+  if (!plan.is_on<motion::Se3>() && std::all_of(plan.sensors.begin(), plan.sensors.end(),
+                                                [](const auto& s) { return results::shows_motion(s.sensor.kind); }))
+    motion_sensors_.emplace(plan);
 }
 
 bool Recording::is_due(long row, bool is_last) const { return row % std::max(1, scene_.output.stride) == 0 || is_last; }
@@ -117,7 +121,12 @@ void Recording::draw(const step::State& state, bool is_last) {
 }
 
 const std::vector<double>& Recording::eval_sensors(const step::State& state) {
-  results::eval_sensors(system_, state, conservation_.energies(), values_);
+  if (motion_sensors_) {
+    motion_sensors_->see(system_.plan(), state);
+    motion_sensors_->eval(system_, values_);
+  } else {
+    results::eval_sensors(system_, state, conservation_.energies(), values_);
+  }
   return values_;
 }
 

@@ -64,6 +64,7 @@ class Recording {
   ExpectedFigures figures_;
   Measures measures_;
   results::SpringWatch springs_;
+  std::optional<results::MotionSensors> motion_sensors_;  ///< where all sensors show motion, of a reduced model
   std::optional<ErrorWatch> error_watch_;
   std::vector<double> values_;
   records::HistoryRow row_;  ///< last recorded row

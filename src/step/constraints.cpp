@@ -30,6 +30,12 @@ Violations largest(const Violations& a, const Violations& b) {
 Constraints::Constraints(const plan::Plan& plan, const Instant& instant, const tree::Walker& walker)
     : plan_(plan), instant_(instant), walker_(walker), signals_(plan) {
   series_.resize(static_cast<std::size_t>(plan.num_multipliers));
+  for (std::size_t j = 0; j < plan.joints.size(); ++j)
+    if (!is_idle_joint(plan, static_cast<int>(j)))
+      for (const elements::Port& port : element_of(plan, j).ports)
+        if (port.node != elements::ground) nodes_.push_back(port.node);
+  std::sort(nodes_.begin(), nodes_.end());
+  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
   if (!plan.signals_drive) return;
   laws_.resize(plan.laws.size());
   law_rates_.resize(plan.laws.size());
@@ -56,7 +62,8 @@ void Constraints::series(const State& state, const motion::Vec6<double>* jerk, d
 
 Violations Constraints::violations(const State& state) const {
   using T = lanes::Taylor<double, 1>;
-  const elements::Field f = instant_.field(state);
+  // Signals may read any node.
+  const elements::Field f = plan_.signals_drive ? instant_.field(state) : instant_.field_of(state, nodes_, motions_);
   if (plan_.signals_drive) {
     const Instant::Series& series = laws_of(state, f, 0.0);
     for (std::size_t i = 0; i < series.size(); ++i) {

@@ -43,8 +43,10 @@ class Constraints {
   const plan::Plan& plan_;
   const Instant& instant_;
   tree::Walker walker_;
-  mutable Instant::Series series_;  ///< scratch of largest_violation
-  mutable Instant::Series laws_;    ///< scratch where signals drive rows
+  std::vector<int> nodes_;                             ///< of the joints that violations() evaluates, ascending
+  mutable std::vector<elements::NodeMotion> motions_;  ///< scratch of violations: these nodes in space
+  mutable Instant::Series series_;                     ///< scratch of largest_violation
+  mutable Instant::Series laws_;                       ///< scratch where signals drive rows
   mutable std::vector<lanes::Taylor<double, 1>> law_rates_;
   mutable SignalSeries signals_;
   mutable std::vector<Violations> parts_;  ///< scratch of violations, by chunk of joints
