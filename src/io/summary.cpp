@@ -33,6 +33,7 @@ void write_steps(JsonText& json, const records::Summary& summary) {
   json.begin_object();
   json.member("prepare", summary.times.prepare);
   json.member("total", summary.times.total);
+  json.member("cpu", summary.times.cpu);
   json.member("assemble", summary.times.assemble);
   json.member("factor", summary.times.factor);
   json.member("solve", summary.times.solve);

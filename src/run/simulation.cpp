@@ -79,7 +79,11 @@ struct Simulation::Impl {
   /// Calls `body` in the scope of the threads and measures its time.
   void together(const std::function<void()>& body) {
     const auto begin = std::chrono::steady_clock::now();
-    threads.keep_together(body);
+    threads.keep_together([&] {
+      const double cpu = system.clock().now();
+      body();
+      recording->summary().times.cpu += system.clock().now() - cpu;
+    });
     recording->summary().times.total += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 

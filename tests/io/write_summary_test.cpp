@@ -59,7 +59,7 @@ TEST(Summary, holds_every_promised_field) {
     EXPECT_NE(json.find(key), nullptr) << key;
   for (const char* key : {"accepted", "rejected", "newton_iterations", "factorizations"})
     EXPECT_NE(json.find("steps")->find(key), nullptr) << key;
-  for (const char* key : {"prepare", "total", "assemble", "factor", "solve", "update", "output"})
+  for (const char* key : {"prepare", "total", "cpu", "assemble", "factor", "solve", "update", "output"})
     EXPECT_NE(json.find("time_s")->find(key), nullptr) << key;
   for (const char* key :
        {"energy_balance", "numerical_dissipation", "energy_scale", "momentum_balance", "constraint_violation_position",

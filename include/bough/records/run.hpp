@@ -112,7 +112,8 @@ struct StepCounts {
 struct StepTimes {
   double prepare = 0.0;  ///< before the first step: plan, tree of sub-domains, symbolic factorization; wall [s]
   double total = 0.0;    ///< of the simulation after that; wall [s]
-  double assemble = 0.0, factor = 0.0, solve = 0.0, update = 0.0, output = 0.0;  ///< CPU seconds summed over threads
+  double cpu = 0.0;      ///< the same in CPU seconds, summed over threads
+  double assemble = 0.0, factor = 0.0, solve = 0.0, update = 0.0, output = 0.0;  ///< parts of cpu
 };
 /// Balances and violations of constraints: the largest values at the times of history rows. Not evaluated if the scene
 /// switches checks off.
