@@ -50,7 +50,7 @@ EnergiesOn<G, double> lane_of(const EnergiesOn<G, LanePack>& all, int lane) {
 
 /// A vector with these components along the axes of a reduced model.
 template <int N>
-Vec3<double> along(const motion::Mat3<double>& axes, const lanes::Vec<double, N>& u) {
+Vec3<double> in_space(const motion::Mat3<double>& axes, const lanes::Vec<double, N>& u) {
   Vec3<double> v = u[0] * lanes::column(axes, 0);
   for (int i = 1; i < N; ++i) v += u[i] * lanes::column(axes, i);
   return v;
@@ -114,7 +114,7 @@ class EnergyMeter::SortedOn : public Sorted {
       // Gravity acts along the axes of a reduced model: the constant distances from them do not count.
       const auto origin = plan::along_axes<G>(plan, plan.origin);
       e.potential = -lanes::dot(field.around.gravity, sum.mass_moment + sum.mass * origin);
-      const Vec3<double> linear = along(plan.axes, G::linear(sum.momentum));
+      const Vec3<double> linear = in_space(plan.axes, G::linear(sum.momentum));
       Vec3<double> angular = Vec3<double>::zero();
       if constexpr (G::turns)
         angular = sum.momentum[G::dof - 1] * lanes::column(plan.axes, 2) + lanes::cross(plan.origin, linear);
