@@ -15,6 +15,15 @@ constexpr int largest_alone = 24;
 /// Sub-domains share a group while the common fronts cost at most this much more than those of the larger one.
 constexpr double most_padding = 1.35;
 constexpr double most_inner_padding = 3.0;
+/// Solutions that a factor serves where lanes are judged; fixed steps of rod_chain and of the crane's jib reuse one for
+/// 16 and 67.
+constexpr double solutions_of_a_factor = 12.0;
+/// Times in seconds, fitted to factorizations and solutions of the scenes of data/; only their ratios matter here.
+namespace cost {
+constexpr double per_pack = 3.5e-7, per_flop_of_pack = 4.4e-10, per_pack_solved = 2e-7;
+constexpr double per_column = 5.5e-8, per_panel = 3.1e-9, per_flop = 1.4e-11, per_front_solved = 1.3e-7;  // one by one
+constexpr double per_byte_solved = 3.3e-11;
+}  // namespace cost
 
 }  // namespace
 
@@ -109,22 +118,64 @@ void LanePlanner::fill_packs(Classes& classes) const {
 
 int LanePlanner::form(std::vector<tree::SubdomainId> subdomains, bool below_lanes, int level) {
   const tree::SubdomainId first = subdomains.front();
-  const bool in_lanes = use_lanes_ && first != tree_.root() &&
-                        (below_lanes || subdomains.size() > 1 || largest_[at(first)] <= largest_alone);
-  Classes classes;
-  const std::size_t num_children = tree_.children(subdomain(first)).size();
+  const bool in_lanes =
+      use_lanes_ && first != tree_.root() &&
+      (below_lanes || subdomains.size() > 1 || (largest_[at(first)] <= largest_alone && gain_of_lanes({first}) > 0.0));
+  std::vector<int> children;
+  for (std::vector<tree::SubdomainId>& group : group_children(subdomains)) {
+    if (in_lanes || group.size() == 1 || gain_of_lanes(group) > 0.0) {
+      children.push_back(form(std::move(group), in_lanes, level + 1));
+    } else {
+      for (tree::SubdomainId s : group) children.push_back(form({s}, in_lanes, level + 1));
+    }
+  }
+  return close(std::move(subdomains), in_lanes, children);
+}
+
+LanePlanner::Classes LanePlanner::group_children(const std::vector<tree::SubdomainId>& subdomains) const {
+  Classes classes, groups;
+  const std::size_t num_children = tree_.children(subdomain(subdomains.front())).size();
   for (std::size_t c = 0; c < num_children; ++c)
     for (tree::SubdomainId s : subdomains) place_child(tree_.children(subdomain(s))[c], classes);
   if (use_lanes_) fill_packs(classes);
-  std::vector<int> children;
   for (const auto& members : classes)
     for (std::size_t i = 0, end = 0; i < members.size(); i = end) {
       end = std::min(members.size(), i + lanes_wide);
-      children.push_back(
-          form({members.begin() + static_cast<std::ptrdiff_t>(i), members.begin() + static_cast<std::ptrdiff_t>(end)},
-               in_lanes, level + 1));
+      groups.emplace_back(members.begin() + static_cast<std::ptrdiff_t>(i),
+                          members.begin() + static_cast<std::ptrdiff_t>(end));
     }
-  return close(std::move(subdomains), in_lanes, children);
+  return groups;
+}
+
+/// A pack takes the same time however many of its lanes are used: two or three fronts of 30 unknowns are eliminated
+/// faster one by one, and the factor of a pack with unused lanes takes more memory to read in every solution. The times
+/// are those of general fronts: a solver that finds its matrix not to be symmetric keeps its groups.
+double LanePlanner::gain_of_lanes(const std::vector<tree::SubdomainId>& subdomains) const {
+  const auto bytes_of = [](int e, int b) { return sizeof(double) * static_cast<double>(e) * (e + 2.0 * b); };
+  const auto time_of_pack = [&](int e, int b) {
+    return cost::per_pack + cost::per_flop_of_pack * tree::elimination_flops(e, b) +
+           solutions_of_a_factor * (cost::per_pack_solved + cost::per_byte_solved * lanes_wide * bytes_of(e, b));
+  };
+  const auto time_alone = [&](int e, int b) {
+    return e * (cost::per_column + cost::per_panel * (e + b)) + cost::per_flop * tree::elimination_flops(e, b) +
+           solutions_of_a_factor * (cost::per_front_solved + cost::per_byte_solved * bytes_of(e, b));
+  };
+  double gain = 0.0;
+  int count = 0;
+  for (tree::SubdomainId s : subdomains) count = std::max(count, count_of(s));
+  for (int k = 0; k < count; ++k) {
+    int eliminated = 0, boundary = 0;
+    for (tree::SubdomainId s : subdomains) {
+      const tree::FrontId id = front_at(s, k, count);
+      if (id == tree::none) continue;
+      gain += time_alone(front(id).num_eliminated, front(id).num_boundary);
+      eliminated = std::max(eliminated, front(id).num_eliminated);
+      boundary = std::max(boundary, front(id).num_boundary);
+    }
+    gain -= time_of_pack(eliminated, boundary);
+  }
+  for (const std::vector<tree::SubdomainId>& group : group_children(subdomains)) gain += gain_of_lanes(group);
+  return gain;
 }
 
 void LanePlanner::place_child(tree::SubdomainId s, Classes& classes) const {

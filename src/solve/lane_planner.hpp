@@ -40,6 +40,10 @@ class LanePlanner {
   /// Makes the group of these sub-domains and, before it, the groups below. `in_lanes`: the parent's group is.
   int form(std::vector<tree::SubdomainId> subdomains, bool below_lanes, int level);
   using Classes = std::vector<std::vector<tree::SubdomainId>>;  ///< sub-domains that can share groups
+  /// The children of a group's sub-domains as they are grouped.
+  Classes group_children(const std::vector<tree::SubdomainId>& subdomains) const;
+  /// Seconds saved by lanes for these sub-domains and all below, in a factorization and the solutions that follow.
+  double gain_of_lanes(const std::vector<tree::SubdomainId>& subdomains) const;
   void place_child(tree::SubdomainId s, Classes& classes) const;
   void fill_packs(Classes& classes) const;
   int close(std::vector<tree::SubdomainId> subdomains, bool in_lanes, const std::vector<int>& children);

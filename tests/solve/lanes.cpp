@@ -165,6 +165,16 @@ TEST(Lanes, long_chains_go_in_lanes_and_give_the_solution_of_the_scalar_path) {
   }
 }
 
+/// Packs of two or three sub-domains take longer than their fronts one by one. A matrix that turns out not to be
+/// symmetric must find the groups of one that was never declared to be.
+TEST(Lanes, packs_that_would_be_nearly_empty_are_split_whether_matrices_are_symmetric_or_not) {
+  const Scene few = make_lattice(6, 8, 8), many = make_chain(6, 64, 4);
+  for (const solve::Symmetry symmetry : {solve::Symmetry::general, solve::Symmetry::symmetric}) {
+    EXPECT_EQ(Solved(few, {.leaf_size = 5}, {.symmetry = symmetry}).solver.counters().fronts_in_lanes, 0);
+    EXPECT_GT(Solved(many, {.leaf_size = 5}, {.symmetry = symmetry}).solver.counters().fronts_in_lanes, 50);
+  }
+}
+
 /// As if nothing had room in the caches: read ahead, and written past them.
 TEST(Lanes, factors_that_exceed_the_caches_are_those_of_the_scalar_path_as_well) {
   Scene scene = make_chain(6, 600, 4);
