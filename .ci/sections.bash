@@ -40,6 +40,13 @@ build_and_test() {
   run_ctest "build/$preset" "$@"
 }
 
+# With the library of the release build, so that only the benchmarks are compiled.
+build_benchmarks() {
+  cmake build/release -DBOUGH_BUILD_BENCHMARKS=ON > build/configure-benchmarks.log 2>&1 ||
+    { cat build/configure-benchmarks.log; return 1; }
+  cmake --build build/release --parallel "$jobs" || return 1
+}
+
 run_ctest() {
   local folder=$1
   shift
