@@ -84,7 +84,8 @@ void Hierarchical::State::size_factors() {
     if (in_lanes) counters.flops_in_lanes += flops;
   }
   factor_pool.resize(at(factor_begin.back()));
-  lane_factors.assign(at(lanes.factor_size * lanes_wide), 0.0);
+  // One pack more than there are, since fronts that eliminate nothing have an address as well.
+  lane_factors.assign(at((lanes.factor_size + 1) * lanes_wide), 0.0);
   std::int64_t scratch = 0;
   for (const LaneGroup& group : lanes.groups)
     if (group.scratch * lanes_wide > room_of_scratch) scratch += group.scratch * lanes_wide;
