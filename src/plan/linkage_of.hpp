@@ -1,8 +1,8 @@
 #pragma once
 /// Translates a scene to rigid parts and their connections. Internal to plan.
-#include <map>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "bough/plan/unknowns.hpp"
@@ -44,7 +44,7 @@ class SceneLinkage {
   const scene::Scene& scene_;
   const scene::Poses& poses_;
   LinkageChoice choice_;
-  std::map<std::string, int> part_of_;
+  std::unordered_map<std::string, int> part_of_;
 };
 
 }  // namespace bough::plan

@@ -46,14 +46,16 @@ Mat3<double> axes_with(int which, const Vec3<double>& direction) {
 /// the plane, then the normal.
 bool couples(const Mat6<double>& m, const Mat3<double>& axes) {
   double turned[6][6], largest[2] = {0.0, 0.0};
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) {
-      double sum = 0.0;
-      for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < 3; ++l) sum += axes(k, i % 3) * m(i / 3 * 3 + k, j / 3 * 3 + l) * axes(l, j % 3);
-      turned[i][j] = sum;
-      if (i == j) largest[i / 3] = std::max(largest[i / 3], std::abs(sum));
+  for (int p : {0, 3})
+    for (int q : {0, 3}) {
+      Mat3<double> block;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) block(i, j) = m(p + i, q + j);
+      const Mat3<double> result = lanes::transpose_times(axes, block * axes);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) turned[p + i][q + j] = result(i, j);
     }
+  for (int i = 0; i < 6; ++i) largest[i / 3] = std::max(largest[i / 3], std::abs(turned[i][i]));
   constexpr int inside[3] = {0, 1, 5}, outside[3] = {2, 3, 4};
   for (int i : inside)
     for (int j : outside) {
