@@ -224,6 +224,7 @@ void run_case(benchmark::State& state, const LeanCase& c, bool barred, bool chec
       static_cast<double>(end.steps.newton_iterations) / static_cast<double>(end.steps.accepted);
   state.counters["factorizations_a_step"] =
       static_cast<double>(end.steps.factorizations) / static_cast<double>(end.steps.accepted);
+  state.counters["prepare_ms"] = 1e3 * end.times.prepare;  // plan, tree and symbolic factorization
 }
 
 }  // namespace
