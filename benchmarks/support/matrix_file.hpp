@@ -28,7 +28,8 @@ MatrixFile read_matrix_file(const std::filesystem::path& file);
 void add_blocks(Problem& problem);
 
 /// The problem of a file: the matrix as it is, unscaled; right-hand side A 1. Symmetric if the file says so, definite
-/// if a Cholesky factorization succeeds.
+/// if a Cholesky factorization succeeds. If fewer than half of the entries beside the diagonal have a mirror image,
+/// the rows are put in an order without zeros on the diagonal (transversal.hpp).
 Problem make_problem(const std::filesystem::path& file);
 
 }  // namespace bough::bench

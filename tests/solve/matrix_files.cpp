@@ -3,14 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <random>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "../../benchmarks/support/matrix_file.hpp"
+#include "../../benchmarks/support/transversal.hpp"
 #include "bough/schedule/serial.hpp"
 #include "bough/solve/hierarchical.hpp"
 
@@ -184,6 +188,94 @@ TEST(MatrixFile, ASingularMatrixIsFoundToBeSo) {
   (void)solve_with_bough(bench::make_problem(file.path()), status);
   EXPECT_EQ(status.outcome, solve::FactorOutcome::singular);
 }
+
+#ifdef BOUGH_HAS_KLU
+bench::SparseMatrix sparse(const Eigen::MatrixXd& a) {
+  bench::SparseMatrix out;
+  out.n = static_cast<int>(a.rows());
+  out.column_begin.assign(1, 0);
+  for (int j = 0; j < out.n; ++j) {
+    for (int i = 0; i < out.n; ++i)
+      if (a(i, j) != 0.0) {
+        out.row.push_back(i);
+        out.value.push_back(a(i, j));
+      }
+    out.column_begin.push_back(out.num_entries());
+  }
+  return out;
+}
+
+/// An order is found if and only if there is one among all of them, tried one by one.
+TEST(MatrixFile, RowsArePermutedToADiagonalWithoutZeros) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  int possible = 0;
+  constexpr int trials = 200;
+  for (int trial = 0; trial < trials; ++trial) {
+    constexpr int n = 6;
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        if (uniform(random) < 0.3) a(i, j) = 1.0 + uniform(random);
+    const auto is_full = [](const Eigen::MatrixXd& m) { return (m.diagonal().array() != 0.0).all(); };
+    std::vector<int> order{0, 1, 2, 3, 4, 5};
+    bool exists = false;
+    do {
+      exists = exists || is_full(a(order, Eigen::all));
+    } while (std::next_permutation(order.begin(), order.end()));
+    bench::SparseMatrix permuted = sparse(a);
+    ASSERT_EQ(bench::permute_rows(permuted), exists);
+    const Eigen::MatrixXd b = dense(permuted);
+    if (!exists) {
+      EXPECT_EQ(b, a);
+      continue;
+    }
+    ++possible;
+    EXPECT_TRUE(is_full(b));
+    bool is_of_a = false;  // the rows are those of A
+    std::sort(order.begin(), order.end());
+    do {
+      is_of_a = is_of_a || b == a(order, Eigen::all);
+    } while (std::next_permutation(order.begin(), order.end()));
+    EXPECT_TRUE(is_of_a);
+  }
+  EXPECT_GT(possible, trials / 10);
+  EXPECT_LT(possible, trials - trials / 10);
+}
+
+/// Equations in an arbitrary order, zeros on the diagonal: the reader puts them in another one, and they are solved.
+TEST(MatrixFile, EquationsInAnyOrderAreSolved) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  constexpr int n = 60;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
+  std::vector<int> row_of(n);
+  for (int i = 0; i < n; ++i) row_of[at(i)] = i;
+  std::shuffle(row_of.begin(), row_of.end(), random);
+  for (int i = 0; i < n; ++i) {
+    a(row_of[at(i)], i) = 4.0;
+    for (int k = 0; k < 3; ++k) a(row_of[at(i)], static_cast<int>(random() % n)) += uniform(random);
+    a.row(row_of[at(i)]) *= std::pow(10.0, static_cast<double>(i % 7));
+  }
+  std::string text = "%%MatrixMarket matrix coordinate real general\n";
+  const bench::SparseMatrix entries = sparse(a);
+  ASSERT_LT(bench::find_symmetry(entries), 0.5);
+  std::ostringstream out;
+  out.precision(17);
+  out << n << ' ' << n << ' ' << entries.num_entries() << '\n';
+  for (int j = 0; j < n; ++j)
+    for (int k = entries.column_begin[at(j)]; k < entries.column_begin[at(j) + 1]; ++k)
+      out << entries.row[at(k)] + 1 << ' ' << j + 1 << ' ' << entries.value[at(k)] << '\n';
+  const File file(text + out.str());
+  const Problem p = bench::make_problem(file.path());
+  ASSERT_FALSE((a.diagonal().array() != 0.0).all());
+  EXPECT_TRUE((dense(p.matrix).diagonal().array() != 0.0).all());
+  solve::FactorStatus status;
+  const Eigen::VectorXd x = solve_with_bough(p, status);
+  ASSERT_TRUE(status.ok());
+  EXPECT_LE((x - Eigen::VectorXd::Ones(n)).cwiseAbs().maxCoeff(), 1e-12);  // the right-hand side is A 1
+}
+#endif
 
 TEST(MatrixFile, WhatIsWrongWithAFileIsToldWithItsLine) {
   const auto complaint = [](const std::string& text) -> std::string {
