@@ -82,7 +82,8 @@ bool is_noise(const System& system, const ResidualSize& r, double tolerance, dou
 }
 
 bool is_closed(const System& system, const ResidualSize& r, double tolerance) {
-  return r.length <= tolerance * system.plan().length_scale && r.angle <= tolerance && r.signal <= tolerance;
+  return r.length <= tolerance * system.plan().length_scale && r.angle <= tolerance &&
+         r.signal <= left_open * tolerance;
 }
 
 bool is_at_floor(const System& system, const ResidualSize& r, double tolerance) {

@@ -57,7 +57,8 @@ bool is_settled(const System& system, const ResidualSize& r, double tolerance, c
 /// `expected`, and its forces and moments are within the round-off floor.
 bool is_noise(const System& system, const ResidualSize& r, double tolerance, double size, double expected);
 
-/// Whether the violations of the constraints are within the tolerance.
+/// Whether the violations of the constraints are within the tolerance, and those of the equations of signals within
+/// left_open times the tolerance: the kinks of their formulas make predictions from rates of convergence unreliable.
 bool is_closed(const System& system, const ResidualSize& r, double tolerance);
 
 /// Whether a residual above the tolerance after iteration k of statics may come from rounded positions: the last two

@@ -275,5 +275,26 @@ TEST(ControlScenes, the_same_happens_anywhere_in_space) {
   }
 }
 
+// While the block slips, its bristle is stretched as far as it goes: there the law of its stretching has a kink, at which
+// the rates of Newton's iterations say nothing about the next one. In space the kink is met from both sides.
+TEST(ControlScenes, friction_at_a_kink_is_as_near_as_the_tolerance_asks) {
+  const auto run_with = [&](const char* tolerance) {
+    return run_ok(support::moved(block({"/analysis/end_time=0.05", std::string("/analysis/tolerance=") + tolerance,
+                                        "/expected=[]", "/output/stride=1"}),
+                                 elsewhere()));
+  };
+  const Outcome exact = run_with("1e-13");
+  const std::vector<double> friction = exact.history.of("friction");
+  for (const auto& [text, tolerance] : {std::pair{"1e-10", 1e-10}, std::pair{"1e-11", 1e-11}}) {
+    const Outcome out = run_with(text);
+    ASSERT_EQ(out.history.times, exact.history.times);
+    const std::vector<double> found = out.history.of("friction");
+    double most = 0.0;
+    for (std::size_t k = 0; k < found.size(); ++k) most = std::max(most, std::abs(found[k] - friction[k]));
+    // The share of the bristle changes by 33 times its relative stretch, and errors of steps add up.
+    EXPECT_LT(most, 4.0 * tolerance * exact.history.largest("friction")) << text;
+  }
+}
+
 }  // namespace
 }  // namespace bough::run
