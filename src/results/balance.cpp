@@ -109,6 +109,7 @@ WorkMeter::WorkMeter(const plan::Plan& plan) {
       using E = std::decay_t<decltype(e)>;
       mass_ += total_mass(e);
       if (!is_watched(e)) return;
+      evaluation_cost_ += E::cost.alone;
       watched_.push_back({id, joint_of[id], ports_.size(), drives_.size()});
       if constexpr (E::role == elements::Role::load)
         ports_.resize(ports_.size() + E::num_ports);

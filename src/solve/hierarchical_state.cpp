@@ -73,7 +73,9 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
 
 void Hierarchical::State::size_factors() {
   factor_begin.assign(1, 0);
-  counters.factor_flops = counters.flops_in_lanes = 0.0;
+  counters.factor_flops = counters.flops_in_lanes = counters.flops_of_packs = 0.0;
+  counters.columns_alone = counters.panels_alone = 0.0;
+  counters.packs_of_fronts = 0;
   for (tree::FrontId id = 0; id < tree.num_fronts(); ++id) {
     const tree::Front& f = front(id);
     const bool in_lanes = lanes.lane_front[at(id)] >= 0;
@@ -81,8 +83,19 @@ void Hierarchical::State::size_factors() {
     factor_begin.push_back(factor_begin.back() + (in_lanes ? 0 : shape.factor_size()));
     const double flops = is_symmetric() ? 0.5 * f.flops : f.flops;
     counters.factor_flops += flops;
-    if (in_lanes) counters.flops_in_lanes += flops;
+    if (in_lanes) {
+      counters.flops_in_lanes += flops;
+      continue;
+    }
+    counters.columns_alone += f.num_eliminated;
+    counters.panels_alone += static_cast<double>(f.num_eliminated) * f.size();
   }
+  for (const LaneFront& f : lanes.fronts) {
+    ++counters.packs_of_fronts;
+    counters.flops_of_packs += (f.is_symmetric ? 0.5 : 1.0) * tree::elimination_flops(f.eliminated, f.boundary);
+  }
+  counters.factor_bytes =
+      (factor_begin.back() + lanes.factor_size * lanes_wide) * static_cast<std::int64_t>(sizeof(double));
   factor_pool.resize(at(factor_begin.back()));
   // One pack more than there are, since fronts that eliminate nothing have an address as well.
   lane_factors.assign(at((lanes.factor_size + 1) * lanes_wide), 0.0);

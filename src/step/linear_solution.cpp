@@ -177,6 +177,7 @@ std::optional<Trouble> LinearSolution::substitute(const double* rhs, double* x, 
 
 std::optional<Trouble> LinearSolution::find_trouble(const solve::SolveReport& solution) {
   unchecked_ = 0;
+  ++counts_.checks;
   last_solution_ = solution;
   is_trusted_ = last_solution_.backward_error <= good && last_solution_.refinement_steps == 0;
   if (!last_solution_.interface_converged)

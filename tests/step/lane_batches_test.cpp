@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bough/solve/any_solver.hpp"
+#include "evaluation_work.hpp"
 #include "small_scenes.hpp"
 #include "support/rig.hpp"
 
@@ -56,7 +57,16 @@ TEST(LaneBatches, elements_of_all_kinds_are_evaluated_in_lockstep) {
     ASSERT_TRUE(rig.plan.took("lanes"));
     const Counted c = count_batches(rig);
     EXPECT_TRUE(std::all_of(c.seen.begin(), c.seen.end(), [](int n) { return n == 1; }));
+    int packs = 0, alone = 0, elements = 0;
+    for (const EvaluationWork& kind : count_evaluations(rig.plan)) {
+      packs += kind.packs;
+      alone += kind.alone;
+      elements += kind.elements;
+    }
+    EXPECT_EQ(elements, rig.plan.graph.num_elements());
     EXPECT_LE(c.alone, 6) << "less than three of each kind: two of beams and one or two of hinges";
+    EXPECT_EQ(c.packs, packs);
+    EXPECT_EQ(c.alone, alone);
   }
 }
 

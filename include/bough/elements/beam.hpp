@@ -32,9 +32,9 @@ struct BeamOn {
       reference_strain[N - 1];  ///< (1 + axial, shear; curvature) of the stress-free shape at the strain points
 
   static constexpr Role role = Role::beam;
-  static constexpr Cost cost = N == 2   ? Cost{400e-9, 1790e-9, 59e-9, 535e-9}
-                               : N == 3 ? Cost{1180e-9, 5430e-9, 190e-9, 1610e-9}
-                                        : Cost{1800e-9, 8800e-9, 290e-9, 2850e-9};
+  static constexpr Cost cost = N == 2   ? Cost{400e-9, 1790e-9, 67e-9, 520e-9}
+                               : N == 3 ? Cost{1180e-9, 5430e-9, 161e-9, 1780e-9}
+                                        : Cost{1800e-9, 8800e-9, 238e-9, 3070e-9};
   static constexpr bool has_stiffness_matrix = true, acts_along_line = false;
   static constexpr DataAxes data_axes = DataAxes::section;
   template <class A, class B, class Visit>

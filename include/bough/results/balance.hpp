@@ -35,6 +35,8 @@ class WorkMeter {
   void add(const step::System& system, const step::State& state, double step_size);
   const Supply& supply() const { return supply_; }
   double mass() const { return mass_; }  ///< total mass [kg]
+  /// Sum of elements::Cost::alone over the elements that are evaluated in every step [s].
+  double evaluation_cost() const { return evaluation_cost_; }
 
  private:
   /// A force or multiplier with its conjugate displacement: a port's pose with its wrench in the port's axes, or a
@@ -60,6 +62,7 @@ class WorkMeter {
   std::vector<Port> ports_;
   std::vector<Drive> drives_;
   double mass_ = 0.0;  ///< total mass [kg]
+  double evaluation_cost_ = 0.0;
   double dissipation_rate_ = 0.0;
   motion::Vec3<double> force_ = motion::Vec3<double>::zero();
   Supply supply_;

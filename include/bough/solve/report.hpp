@@ -105,6 +105,11 @@ struct SolverCounters {
   std::int64_t enlarging_allocations = 0;  ///< heap allocations these needed.
   std::int64_t fronts_in_lanes = 0;        ///< fronts of the tree that are factored in lockstep.
   double flops_in_lanes = 0.0;             ///< the part of factor_flops in these fronts [flop].
+  std::int64_t packs_of_fronts = 0;        ///< these fronts, those that share a pack counted once.
+  double flops_of_packs = 0.0;             ///< of one lane of each pack, filled up to the largest of its fronts [flop].
+  std::int64_t factor_bytes = 0;
+  double columns_alone = 0.0;  ///< unknowns eliminated in fronts outside of lanes.
+  double panels_alone = 0.0;   ///< sum over these unknowns of the sizes of their fronts.
   std::int64_t lanes_left =
       0;  ///< fronts that left their lane for scalar elimination with pivoting, over all factorizations.
 };

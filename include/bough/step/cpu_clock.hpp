@@ -34,6 +34,7 @@ class CpuClock {
 struct WorkCounts {
   double assemble = 0.0, factor = 0.0, solve = 0.0, update = 0.0;
   long factorizations = 0, solutions = 0, evaluations = 0;
+  long checks = 0;  ///< solutions whose backward error was measured
   double backward_error_max = 0.0;
   double rank_error_max = 0.0;
 };
