@@ -88,6 +88,11 @@ std::string plan_text(const run::Outlook& o) {
           seconds_text(e.evaluate_seconds) + ", factor " + seconds_text(e.factor_seconds) + " (" +
           rounded_text(e.factorizations, 2) + " of " + rounded_text(1e-6 * e.factor_flops, 3) + " Mflop), solve " +
           seconds_text(e.solve_seconds) + ", nodes " + seconds_text(e.other_seconds) + "\n";
+  text += "  by " + rounded_text(e.iterations, 2) + " iterations, " + rounded_text(e.evaluations, 2) +
+          " evaluations and " + rounded_text(e.factorizations, 2) + " factorizations a step, " +
+          (e.trial_steps > 0 ? "as in the later half of " + std::to_string(e.trial_steps) + " trial steps"
+                             : std::string("as is usual")) +
+          "\n";
   text += "a run, " + rounded_text(o.steps, 6) + (o.steps == 1.0 ? " step" : " steps") + ", about " +
           seconds_text(o.steps * e.step_seconds()) + " on one thread\n";
   text += "memory, about " + bytes_text(static_cast<double>(o.process_bytes)) + ", of which " +
@@ -110,6 +115,8 @@ void write_effort(io::JsonText& json, const run::Effort& e) {
   json.member("factor_flops", e.factor_flops);
   json.member("factorizations", e.factorizations);
   json.member("iterations", e.iterations);
+  json.member("evaluations", e.evaluations);
+  json.member("trial_steps", static_cast<long long>(e.trial_steps));
   json.member("evaluate_s", e.evaluate_seconds);
   json.member("factor_s", e.factor_seconds);
   json.member("solve_s", e.solve_seconds);

@@ -289,10 +289,12 @@ void add_tune(CLI::App& app, TuneArguments& a, int& code) {
 }
 
 void add_plan(CLI::App& app, PlanArguments& a, int& code) {
-  CLI::App& verb = add_verb(app, "plan", "Say what a run leaves out and why, and what it will take",
-                            "  bough plan four_bar.json\n"
-                            "  bough plan four_bar.json --without planar --json plan.json\n"
-                            "Nothing is run: seconds come from a model, for comparisons of a scene with itself.");
+  CLI::App& verb =
+      add_verb(app, "plan", "Say what a run leaves out and why, and what it will take",
+               "  bough plan four_bar.json\n"
+               "  bough plan four_bar.json --without planar --json plan.json\n"
+               "Iterations are counted over at most 128 trial steps, of 0.2 s in all; seconds come from a model\n"
+               "with the costs of one machine: others are slower or faster by a common factor.");
   verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
   verb.add_option("--json", a.json, "Write all of it")->type_name("FILE");
   add_overrides(verb, a.overrides);

@@ -3,17 +3,23 @@
 #include <algorithm>
 #include <memory>
 
+#include "bough/results/balance.hpp"
 #include "bough/run/estimate.hpp"
 #include "bough/schedule/serial.hpp"
 #include "bough/step/state.hpp"
 #include "bough/step/step_cost.hpp"
 #include "bough/step/system.hpp"
+#include "trial_steps.hpp"
 
 namespace bough::run {
 
 namespace {
 
-constexpr double usual_iterations = 3.1, usual_evaluations = 3.4, usual_factorizations = 0.46;
+// Of runs of data/scenarios: in time with and without factors that serve again, and in statics.
+constexpr StepWork usual_with_reuse{3.1, 3.5, 0.2, 0.2}, usual_without_reuse{3.0, 3.0, 3.0, 3.0},
+    usual_in_statics{4.0, 5.5, 4.0, 4.0};
+// The balances of energy and momentum evaluate elements alone, in space.
+constexpr double per_balance = 1.37;
 constexpr std::int64_t program_bytes = 11'000'000;  ///< resident memory of the program before a scene is built
 
 std::int64_t bytes_of(const step::System& system) {
@@ -39,18 +45,41 @@ struct Built {
       : plan(plan::make_plan(scene)), system(plan, scene.solver, schedule::make_serial_walker()) {}
 };
 
-Effort effort_of(Built& b) {
+/// Seconds of a step with this work per step.
+double set_seconds(Effort& e, const step::StepCost& cost, const StepWork& work) {
+  e.iterations = work.iterations;
+  e.evaluations = work.evaluations;
+  e.factorizations = work.factorizations;
+  e.trial_steps = work.trial_steps;
+  e.evaluate_seconds =
+      std::max(0.0, work.evaluations - work.factorizations) * cost.residual + work.factorizations * cost.tangent;
+  e.factor_seconds = work.factorizations * cost.factor;
+  e.solve_seconds = work.iterations * cost.solve + work.checks * cost.check;
+  e.other_seconds = work.iterations * cost.update + cost.end;
+  return e.step_seconds();
+}
+
+/// The work of a step: that of trial steps, as many as the model allows, or the usual one.
+StepWork work_of(const scene::Scene& scene, const Built& b) {
+  constexpr double allowed = 0.2, longest = 1.0;  // of all trial steps, and of the fewest [s]
+  const int most = 128, fewest = b.plan.is_dynamic ? 8 : 1;
+  const StepWork& usual = !b.plan.is_dynamic     ? usual_in_statics
+                          : b.plan.took("reuse") ? usual_with_reuse
+                                                 : usual_without_reuse;
   Effort e;
-  const bool reuse = b.plan.took("reuse"), dynamic = b.plan.is_dynamic;
+  const double step = set_seconds(e, step::estimate_step_cost(b.system), usual);
+  if (fewest * step > longest) return usual;
+  const double steps =
+      std::clamp(allowed / step, 1.0 * fewest, std::max(1.0 * fewest, 0.5 * estimate_run(scene).steps));
+  return try_steps(scene, static_cast<int>(std::min(steps, 1.0 * most))).value_or(usual);
+}
+
+Effort effort_of(const scene::Scene& scene, Built& b, const StepWork& work) {
+  Effort e;
   e.unknowns = b.system.linear().tree().num_unknowns();
-  e.iterations = reuse ? usual_iterations : dynamic ? 3.0 : 5.0;
-  e.factorizations = reuse ? usual_factorizations : e.iterations;
-  const double residuals = reuse ? usual_evaluations : 1.0, tangents = e.factorizations;
   const step::StepCost cost = step::estimate_step_cost(b.system);
-  e.evaluate_seconds = residuals * cost.residual + tangents * cost.tangent;
-  e.factor_seconds = e.factorizations * cost.factor;
-  e.solve_seconds = e.iterations * cost.solve;
-  e.other_seconds = e.iterations * cost.update;
+  set_seconds(e, cost, work);
+  if (scene.output.checks) e.other_seconds += per_balance * results::WorkMeter(b.plan).evaluation_cost();
   const solve::SolverCounters counters = b.system.linear().solver().counters();
   e.factor_flops = counters.factor_flops;
   e.memory_bytes = counters.memory_bytes;
@@ -93,7 +122,8 @@ Outlook look_ahead(const scene::Scene& scene) {
     out.leaves += s.is_leaf() ? 1 : 0;
     out.levels = std::max(out.levels, s.level + 1);
   }
-  out.effort = effort_of(built);
+  const StepWork work = work_of(scene, built);
+  out.effort = effort_of(scene, built, work);
   const solve::SolverCounters counters = built.system.linear().solver().counters();
   out.fronts_in_lanes = static_cast<int>(counters.fronts_in_lanes);
   out.steps = estimate_run(scene).steps;
@@ -106,7 +136,8 @@ Outlook look_ahead(const scene::Scene& scene) {
       scene::Scene other = scene;
       other.without.push_back(d.name);
       Built without(other);
-      o.without = effort_of(without);
+      const bool iterates_alike = d.name != "reuse" && d.name != "symmetric";
+      o.without = effort_of(other, without, iterates_alike ? work : work_of(other, without));
     }
     out.decisions.push_back(o);
   }

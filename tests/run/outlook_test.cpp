@@ -1,0 +1,77 @@
+/// What `bough plan` predicts: the work of a step is counted over trial steps.
+#include "bough/run/outlook.hpp"
+
+#include <gtest/gtest.h>
+
+#include "bough/records/no_recorder.hpp"
+#include "bough/run/simulate.hpp"
+#include "step/small_scenes.hpp"
+#include "trial_steps.hpp"
+
+namespace bough::run {
+namespace {
+
+/// A chain that swings, in steps of 1 ms; without checks, so that all solutions are those of Newton's method.
+scene::Scene make_swing(int steps) {
+  scene::Scene s = test::make_chain(6);
+  s.output.checks = false;
+  s.analysis.step_size = 1e-3;
+  s.analysis.end_time = 1e-3 * steps;
+  return s;
+}
+
+/// The later half of 64 steps has the work of a run of 64 steps less that of one of 32.
+TEST(TrialSteps, count_the_work_of_the_later_half) {
+  const auto steps_of = [](int steps) {
+    records::NoRecorder recorder;
+    const records::Summary summary = simulate(make_swing(steps), {}, recorder);
+    EXPECT_EQ(summary.status, records::RunStatus::ok) << summary.cause;
+    return summary.steps;
+  };
+  const records::StepCounts half = steps_of(32), whole = steps_of(64);
+  const auto work = try_steps(make_swing(200), 64);
+  ASSERT_TRUE(work);
+  EXPECT_EQ(work->trial_steps, 64);
+  EXPECT_EQ(32.0 * work->iterations, static_cast<double>(whole.newton_iterations - half.newton_iterations));
+  EXPECT_EQ(32.0 * work->factorizations, static_cast<double>(whole.factorizations - half.factorizations));
+  EXPECT_GE(work->evaluations, work->iterations);
+}
+
+/// A run that ends before has given as many steps as it had, but for the last, whose work is not seen.
+TEST(TrialSteps, are_those_that_a_short_run_has) {
+  const auto work = try_steps(make_swing(20), 64);
+  ASSERT_TRUE(work);
+  EXPECT_EQ(work->trial_steps, 19);
+}
+
+TEST(Outlook, has_the_counts_of_trial_steps) {
+  const scene::Scene s = make_swing(1000);
+  const Outlook outlook = look_ahead(s);
+  const auto work = try_steps(s, outlook.effort.trial_steps);
+  ASSERT_TRUE(work);
+  EXPECT_GT(outlook.effort.trial_steps, 32);
+  EXPECT_EQ(outlook.effort.iterations, work->iterations);
+  EXPECT_EQ(outlook.effort.factorizations, work->factorizations);
+  for (const OutlookDecision& d : outlook.decisions) {
+    if (!d.has_saving) continue;
+    if (d.decision.name == "reuse")
+      EXPECT_GT(d.without.factorizations, 1.9) << "each iteration has a factorization of its own";
+    else
+      EXPECT_EQ(d.without.iterations, work->iterations) << d.decision.name;
+  }
+}
+
+/// Where no step can be taken, the counts are the usual ones, and say so.
+TEST(Outlook, has_usual_counts_where_the_run_fails) {
+  scene::Scene s = make_swing(1000);
+  s.analysis.max_iterations = 1;
+  s.analysis.max_cuts = 0;
+  s.gravity = 1e6 * s.gravity;
+  ASSERT_FALSE(try_steps(s, 8));
+  const Outlook outlook = look_ahead(s);
+  EXPECT_EQ(outlook.effort.trial_steps, 0);
+  EXPECT_GT(outlook.effort.step_seconds(), 0.0);
+}
+
+}  // namespace
+}  // namespace bough::run
