@@ -293,7 +293,7 @@ void add_plan(CLI::App& app, PlanArguments& a, int& code) {
       add_verb(app, "plan", "Say what a run leaves out and why, and what it will take",
                "  bough plan four_bar.json\n"
                "  bough plan four_bar.json --without planar --json plan.json\n"
-               "Iterations are counted over at most 128 trial steps, of 0.2 s in all; seconds come from a model\n"
+               "Iterations are counted over at most 2048 trial steps, of 0.2 s in all; seconds come from a model\n"
                "with the costs of one machine: others are slower or faster by a common factor.");
   verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
   verb.add_option("--json", a.json, "Write all of it")->type_name("FILE");

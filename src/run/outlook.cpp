@@ -18,7 +18,7 @@ namespace {
 // Of runs of data/scenarios: in time with and without factors that serve again, and in statics.
 constexpr StepWork usual_with_reuse{3.1, 3.5, 0.2, 0.2}, usual_without_reuse{3.0, 3.0, 3.0, 3.0},
     usual_in_statics{4.0, 5.5, 4.0, 4.0};
-// The balances of energy and momentum evaluate elements alone, in space.
+// The balances of energy and momentum evaluate elements one by one, in space.
 constexpr double per_balance = 1.37;
 constexpr std::int64_t program_bytes = 11'000'000;  ///< resident memory of the program before a scene is built
 
@@ -62,7 +62,7 @@ double set_seconds(Effort& e, const step::StepCost& cost, const StepWork& work) 
 /// The work of a step: that of trial steps, as many as the model allows, or the usual one.
 StepWork work_of(const scene::Scene& scene, const Built& b) {
   constexpr double allowed = 0.2, longest = 1.0;  // of all trial steps, and of the fewest [s]
-  const int most = 128, fewest = b.plan.is_dynamic ? 8 : 1;
+  const int most = 2048, fewest = b.plan.is_dynamic ? 8 : 1;
   const StepWork& usual = !b.plan.is_dynamic     ? usual_in_statics
                           : b.plan.took("reuse") ? usual_with_reuse
                                                  : usual_without_reuse;

@@ -29,7 +29,7 @@ constexpr double per_evaluation = 1.7e-7, per_sum = 1e-8, per_sum_tangent = 2.8e
 
 constexpr double per_pack = 3.5e-7, per_flop_of_pack = 4.4e-10;  ///< fronts in lockstep
 constexpr double symmetric_alone = 1.4;  ///< pairs of pivots are searched for, and half of the entries are not there
-constexpr double per_column = 5.5e-8, per_panel = 3.1e-9, per_flop = 1.4e-11;  ///< fronts that go alone
+constexpr double per_column = 5.5e-8, per_panel = 3.1e-9, per_flop = 1.4e-11;  ///< fronts in scalar arithmetic
 constexpr double per_flop_of_others = 1.1e-9;                                  ///< time per flop of monolithic solvers
 
 // Factors and element matrices that do not fit into the caches come from memory.

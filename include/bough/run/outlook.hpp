@@ -48,7 +48,7 @@ struct Outlook {
 };
 
 /// Builds plan, tree and solver of a scene, once as given and once without each decision that can be excluded. Takes up
-/// to 128 steps of a run, once for all decisions but those that change the iteration; fewer where steps are
+/// to 2048 steps of a run, once for all decisions but those that change the iteration; fewer where steps are
 /// long, none where eight would take a second by the model. The numbers of work per step that they give do not depend
 /// on the machine.
 /// Precondition: problems_in(scene) is empty.
