@@ -24,7 +24,7 @@ template <>
 constexpr KernelParts kernel_parts<motion::Se2>{0.36, 0.2, 0.26, 0.14};
 template <int N>
 constexpr KernelParts kernel_parts<motion::Translations<N>>{0.16, 0.16, 0.1, 0.1};
-constexpr double at_rest = 0.52;  ///< part of it without velocities
+constexpr double kernels_at_rest = 0.52;  ///< part of it without velocities
 constexpr double per_evaluation = 1.7e-7, per_sum = 1e-8, per_sum_tangent = 2.8e-8, per_signal = 2.2e-7;
 
 constexpr double per_pack = 3.5e-7, per_flop_of_pack = 4.4e-10;  ///< fronts in lockstep
@@ -71,7 +71,7 @@ void add_elements(const plan::Plan& plan, StepCost& cost) {
           part.lanes_tangent * in_lanes * c.lane_tangent + part.alone_tangent * work.alone * c.alone_tangent;
     });
   }
-  const double kernels = plan.is_dynamic || !plan.frames.empty() ? 1.0 : at_rest,
+  const double kernels = plan.is_dynamic || !plan.frames.empty() ? 1.0 : kernels_at_rest,
                others = per_evaluation + per_signal * static_cast<double>(plan.signals.size());
   cost.residual = kernels * cost.residual + per_sum * elements + others;
   cost.tangent = kernels * cost.tangent + per_sum_tangent * elements + others;
