@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bough/solve/front_cost.hpp"
 #include "lane_planner.hpp"
 
 namespace bough::solve {
@@ -15,15 +16,12 @@ constexpr int largest_alone = 24;
 /// Sub-domains share a group while the common fronts cost at most this much more than those of the larger one.
 constexpr double most_padding = 1.35;
 constexpr double most_inner_padding = 3.0;
-/// Solutions that a factor serves where lanes are judged; fixed steps of rod_chain and of the crane's jib reuse one for
-/// 16 and 67.
+/// Solutions that a factor serves where lanes are judged, of which the solver does not know. Fixed steps of rod_chain
+/// and of the crane's jib reuse one for 16 and 67 (`steps` of their summaries).
 constexpr double solutions_of_a_factor = 12.0;
-/// Times in seconds, fitted to factorizations and solutions of the scenes of data/; only their ratios matter here.
-namespace cost {
-constexpr double per_pack = 3.5e-7, per_flop_of_pack = 4.4e-10, per_pack_solved = 2e-7;
-constexpr double per_column = 5.5e-8, per_panel = 3.1e-9, per_flop = 1.4e-11, per_front_solved = 1.3e-7;  // one by one
-constexpr double per_byte_solved = 3.3e-11;
-}  // namespace cost
+/// Time of a pack in a solution besides its bytes [s]. It is set to the value with which the crane's jib and the rotor
+/// of data/ take no lanes that cost them time; the model of whole steps fits with 2e-8 (step_cost.cpp).
+constexpr double per_pack_solved = 2e-7;
 
 }  // namespace
 
@@ -34,7 +32,7 @@ LanePlan LanePlanner::run() {
   plan_.element_first.assign(at(graph_.num_elements()), 0);
   plan_.element_stride.assign(at(graph_.num_elements()), 1);
   measure_subdomains();
-  const int root = form({tree_.root()}, false, 0);
+  const int root = form({tree_.root()}, false);
   plan_.walk.subdomains[at(root)].parent = tree::none;
   set_levels();
   return std::move(plan_);
@@ -116,7 +114,7 @@ void LanePlanner::fill_packs(Classes& classes) const {
   }
 }
 
-int LanePlanner::form(std::vector<tree::SubdomainId> subdomains, bool below_lanes, int level) {
+int LanePlanner::form(std::vector<tree::SubdomainId> subdomains, bool below_lanes) {
   const tree::SubdomainId first = subdomains.front();
   const bool in_lanes =
       use_lanes_ && first != tree_.root() &&
@@ -124,9 +122,9 @@ int LanePlanner::form(std::vector<tree::SubdomainId> subdomains, bool below_lane
   std::vector<int> children;
   for (std::vector<tree::SubdomainId>& group : group_children(subdomains)) {
     if (in_lanes || group.size() == 1 || gain_of_lanes(group) > 0.0) {
-      children.push_back(form(std::move(group), in_lanes, level + 1));
+      children.push_back(form(std::move(group), in_lanes));
     } else {
-      for (tree::SubdomainId s : group) children.push_back(form({s}, in_lanes, level + 1));
+      for (tree::SubdomainId s : group) children.push_back(form({s}, in_lanes));
     }
   }
   return close(std::move(subdomains), in_lanes, children);
@@ -153,12 +151,13 @@ LanePlanner::Classes LanePlanner::group_children(const std::vector<tree::Subdoma
 double LanePlanner::gain_of_lanes(const std::vector<tree::SubdomainId>& subdomains) const {
   const auto bytes_of = [](int e, int b) { return sizeof(double) * static_cast<double>(e) * (e + 2.0 * b); };
   const auto time_of_pack = [&](int e, int b) {
-    return cost::per_pack + cost::per_flop_of_pack * tree::elimination_flops(e, b) +
-           solutions_of_a_factor * (cost::per_pack_solved + cost::per_byte_solved * lanes_wide * bytes_of(e, b));
+    return front_cost::per_pack + front_cost::per_flop_of_pack * tree::elimination_flops(e, b) +
+           solutions_of_a_factor * (per_pack_solved + front_cost::per_byte_solved * lanes_wide * bytes_of(e, b));
   };
   const auto time_alone = [&](int e, int b) {
-    return e * (cost::per_column + cost::per_panel * (e + b)) + cost::per_flop * tree::elimination_flops(e, b) +
-           solutions_of_a_factor * (cost::per_front_solved + cost::per_byte_solved * bytes_of(e, b));
+    return e * (front_cost::per_column + front_cost::per_panel * (e + b)) +
+           front_cost::per_flop * tree::elimination_flops(e, b) +
+           solutions_of_a_factor * (front_cost::per_front_solved + front_cost::per_byte_solved * bytes_of(e, b));
   };
   double gain = 0.0;
   int count = 0;

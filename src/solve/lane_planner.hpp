@@ -37,8 +37,8 @@ class LanePlanner {
   };
   std::optional<Match> match(tree::SubdomainId a, tree::SubdomainId b) const;
   bool fits(tree::SubdomainId a, tree::SubdomainId b) const;
-  /// Makes the group of these sub-domains and, before it, the groups below. `in_lanes`: the parent's group is.
-  int form(std::vector<tree::SubdomainId> subdomains, bool below_lanes, int level);
+  /// Makes the group of these sub-domains and, before it, the groups below. `below_lanes`: the parent's is in lanes.
+  int form(std::vector<tree::SubdomainId> subdomains, bool below_lanes);
   using Classes = std::vector<std::vector<tree::SubdomainId>>;  ///< sub-domains that can share groups
   /// The children of a group's sub-domains as they are grouped.
   Classes group_children(const std::vector<tree::SubdomainId>& subdomains) const;

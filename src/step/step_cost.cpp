@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "bough/solve/front_cost.hpp"
 #include "evaluation_work.hpp"
 
 namespace bough::step {
@@ -27,14 +28,11 @@ constexpr KernelParts kernel_parts<motion::Translations<N>>{0.16, 0.16, 0.1, 0.1
 constexpr double kernels_at_rest = 0.52;  ///< part of it without velocities
 constexpr double per_evaluation = 1.7e-7, per_sum = 1e-8, per_sum_tangent = 2.8e-8, per_signal = 2.2e-7;
 
-constexpr double per_pack = 3.5e-7, per_flop_of_pack = 4.4e-10;  ///< fronts in lockstep
 constexpr double symmetric_alone = 1.4;  ///< pairs of pivots are searched for, and half of the entries are not there
-constexpr double per_column = 5.5e-8, per_panel = 3.1e-9, per_flop = 1.4e-11;  ///< fronts in scalar arithmetic
-constexpr double per_flop_of_others = 1.1e-9;                                  ///< time per flop of monolithic solvers
+constexpr double per_flop_of_others = 1.1e-9;  ///< time per flop of monolithic solvers
 
 // Factors and element matrices that do not fit into the caches come from memory.
-constexpr double per_solution = 1e-7, per_pack_solved = 2e-8, per_front_solved = 1.3e-7, per_byte = 3.3e-11,
-                 per_byte_far = 5.9e-11;
+constexpr double per_solution = 1e-7, per_pack_solved = 2e-8, per_byte_far = 5.9e-11;
 constexpr double bytes_near = 16e6;
 /// Elements and nodes of a structure of that size come from memory, too; per byte of its solver.
 constexpr double residual_far = 1.5e-11, tangent_far = 3.3e-11, update_far = 2e-11;
@@ -101,19 +99,20 @@ void add_solver(const System& system, StepCost& cost) {
                per_element_checked * system.plan().graph.num_elements() + far;
   if (linear.solver().hierarchical() == nullptr) {
     cost.factor = linear.tree().subdomains.back().subtree_flops * per_flop_of_others;
-    cost.solve = per_solution + per_byte * memory + far;
+    cost.solve = per_solution + solve::front_cost::per_byte_solved * memory + far;
     return;
   }
   const double dependent = expected_dependent_rows<G>(system.plan());
   const auto packs = static_cast<double>(c.packs_of_fronts);
   const double alone = static_cast<double>(linear.tree().num_fronts() - c.fronts_in_lanes);
-  const double fronts_alone =
-      per_column * c.columns_alone + per_panel * c.panels_alone + per_flop * (c.factor_flops - c.flops_in_lanes);
-  cost.factor = per_pack * packs + per_flop_of_pack * c.flops_of_packs + per_dependent_row * dependent +
-                (linear.takes_symmetric_parts() ? symmetric_alone : 1.0) * fronts_alone;
-  cost.solve = per_solution + per_pack_solved * packs + per_front_solved * alone +
-               per_byte * static_cast<double>(c.factor_bytes) + far + per_dependent_row_solved * dependent +
-               (dependent > 0.0 ? dependence_solved : 0.0);
+  const double fronts_alone = solve::front_cost::per_column * c.columns_alone +
+                              solve::front_cost::per_panel * c.panels_alone +
+                              solve::front_cost::per_flop * (c.factor_flops - c.flops_in_lanes);
+  cost.factor = solve::front_cost::per_pack * packs + solve::front_cost::per_flop_of_pack * c.flops_of_packs +
+                per_dependent_row * dependent + (linear.takes_symmetric_parts() ? symmetric_alone : 1.0) * fronts_alone;
+  cost.solve = per_solution + per_pack_solved * packs + solve::front_cost::per_front_solved * alone +
+               solve::front_cost::per_byte_solved * static_cast<double>(c.factor_bytes) + far +
+               per_dependent_row_solved * dependent + (dependent > 0.0 ? dependence_solved : 0.0);
 }
 
 template <class G>
