@@ -440,6 +440,7 @@ StepReport VariationalOn<G>::try_step(State& state, const StepOptions& options, 
 
 #define BOUGH_INSTANTIATE(G) template class VariationalOn<G>;
 BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
+#undef BOUGH_INSTANTIATE
 
 std::unique_ptr<Integrator> make_variational(System& system, const scene::Solver& solver, double newmark_beta) {
   return system.plan().with_group([&]<class G>() -> std::unique_ptr<Integrator> {

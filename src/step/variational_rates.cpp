@@ -224,7 +224,16 @@ void VariationalOn<G>::compare_rates(const State& state, double h) {
   unresolved_ = size > 0.0 ? largest(increments_) / size : 0.0;
 }
 
-#define BOUGH_INSTANTIATE(G) template class VariationalOn<G>;
+// The class as a whole is instantiated once, in variational.cpp.
+#define BOUGH_INSTANTIATE(G)                                                             \
+  template double VariationalOn<G>::largest(const Vectors&) const;                       \
+  template std::optional<Trouble> VariationalOn<G>::factor_mass(const State&, double);   \
+  template std::optional<Trouble> VariationalOn<G>::solve_velocities(State&, double);    \
+  template std::optional<Trouble> VariationalOn<G>::solve_accelerations(State&, double); \
+  template std::optional<Trouble> VariationalOn<G>::recover_multipliers(State&, double); \
+  template void VariationalOn<G>::add_counts();                                          \
+  template void VariationalOn<G>::compare_rates(const State&, double);
 BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
+#undef BOUGH_INSTANTIATE
 
 }  // namespace bough::step

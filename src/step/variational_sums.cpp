@@ -133,5 +133,6 @@ void ConstraintRows<G>::add_forces(const double* multipliers, double factor,
   template class MomentumSums<G>; \
   template class ConstraintRows<G>;
 BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
+#undef BOUGH_INSTANTIATE
 
 }  // namespace bough::step
