@@ -103,7 +103,7 @@ Problem make_problem(const std::filesystem::path& file) {
   p.is_definite = p.is_symmetric() && is_definite(p.matrix);
   const double start = cpu_now();
   // The diagonal of such a matrix means nothing: its rows are equations in any order.
-  constexpr double least_symmetry = 0.5;  // the limit of UMFPACK's symmetric strategy
+  constexpr double least_symmetry = 0.5;  // a choice: structures have 1
   if (!p.is_symmetric() && find_symmetry(p.matrix) < least_symmetry) permute_rows(p.matrix);
   p.rhs.assign(at(p.matrix.n), 0.0);
   for (std::size_t k = 0; k < p.matrix.row.size(); ++k) p.rhs[at(p.matrix.row[k])] += p.matrix.value[k];

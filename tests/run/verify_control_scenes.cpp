@@ -275,8 +275,8 @@ TEST(ControlScenes, the_same_happens_anywhere_in_space) {
   }
 }
 
-// While the block slips, its bristle is stretched as far as it goes: there the law of its stretching has a kink, at which
-// the rates of Newton's iterations say nothing about the next one. In space the kink is met from both sides.
+// While the block slips, its bristle is stretched as far as it goes. There the law of its stretching has a kink, at
+// which the rates of Newton's iterations say nothing about the next one. In space the kink is met from both sides.
 TEST(ControlScenes, friction_at_a_kink_is_as_near_as_the_tolerance_asks) {
   const auto run_with = [&](const char* tolerance) {
     return run_ok(support::moved(block({"/analysis/end_time=0.05", std::string("/analysis/tolerance=") + tolerance,

@@ -85,6 +85,21 @@ Eigen::VectorXd solve_with_bough(const Problem& p, solve::FactorStatus& status) 
   return x;
 }
 
+bench::SparseMatrix sparse(const Eigen::MatrixXd& a) {
+  bench::SparseMatrix out;
+  out.n = static_cast<int>(a.rows());
+  out.column_begin.assign(1, 0);
+  for (int j = 0; j < out.n; ++j) {
+    for (int i = 0; i < out.n; ++i)
+      if (a(i, j) != 0.0) {
+        out.row.push_back(i);
+        out.value.push_back(a(i, j));
+      }
+    out.column_begin.push_back(out.num_entries());
+  }
+  return out;
+}
+
 /// Three unknowns a node, elements of four nodes on a grid, two nodes tied by two rows of multipliers: what a program
 /// of mechanics would write, its unknowns shuffled.
 bench::SparseMatrix make_grid(int n, bool is_symmetric, std::vector<int>& order) {
@@ -112,18 +127,7 @@ bench::SparseMatrix make_grid(int n, bool is_symmetric, std::vector<int>& order)
         a(order[at(motions + row)], order[at(3 * node + k)]) = a(order[at(3 * node + k)], order[at(motions + row)]) =
             uniform(random);
   if (is_symmetric) a = Eigen::MatrixXd(0.5 * (a + a.transpose()));
-  bench::SparseMatrix sparse;
-  sparse.n = size;
-  sparse.column_begin.assign(1, 0);
-  for (int j = 0; j < size; ++j) {
-    for (int i = 0; i < size; ++i)
-      if (a(i, j) != 0.0) {
-        sparse.row.push_back(i);
-        sparse.value.push_back(a(i, j));
-      }
-    sparse.column_begin.push_back(sparse.num_entries());
-  }
-  return sparse;
+  return sparse(a);
 }
 
 TEST(MatrixFile, NodesElementsAndMultipliersOfAGridAreFoundAgainAndSolved) {
@@ -190,21 +194,6 @@ TEST(MatrixFile, ASingularMatrixIsFoundToBeSo) {
 }
 
 #ifdef BOUGH_HAS_KLU
-bench::SparseMatrix sparse(const Eigen::MatrixXd& a) {
-  bench::SparseMatrix out;
-  out.n = static_cast<int>(a.rows());
-  out.column_begin.assign(1, 0);
-  for (int j = 0; j < out.n; ++j) {
-    for (int i = 0; i < out.n; ++i)
-      if (a(i, j) != 0.0) {
-        out.row.push_back(i);
-        out.value.push_back(a(i, j));
-      }
-    out.column_begin.push_back(out.num_entries());
-  }
-  return out;
-}
-
 /// An order is found if and only if there is one among all of them, tried one by one.
 TEST(MatrixFile, RowsArePermutedToADiagonalWithoutZeros) {
   std::mt19937 random(11);
