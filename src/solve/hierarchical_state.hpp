@@ -38,11 +38,13 @@ struct FrontData {
   int* columns = nullptr;
   int* row_from = nullptr;  ///< full: row before pivoting
   int size = 0, full = 0, pivots = 0;
-  int dependent = 0;       ///< of those without a pivot: rows and columns decided here, the last ones
-  int delayed_in = 0;      ///< unknowns that children could not eliminate: they come first
-  int delayed_to = 0;      ///< row of the parent of the first unknown that it delays itself
-  bool failed = false;     ///< not finite here or below
-  bool allocated = false;  ///< enlarging it allocated memory in this factorization
+  int dependent = 0;              ///< of those without a pivot: rows and columns decided here, the last ones
+  int delayed_in = 0;             ///< unknowns that children could not eliminate: they come first
+  int delayed_to = 0;             ///< row of the parent of the first unknown that it delays itself
+  bool failed = false;            ///< not finite here or below
+  bool rows_in_order = false;     ///< no pivot has exchanged rows
+  bool columns_in_order = false;  ///< nor the columns of its own unknowns
+  bool allocated = false;         ///< enlarging it allocated memory in this factorization
   int num_delayed() const { return full - pivots - dependent; }
   bool is_symmetric() const { return d != nullptr; }
   void set_parts(const FrontShape& shape, double* factor, double* schur);
@@ -182,7 +184,7 @@ struct Hierarchical::State {
   FactorStatus factor_all(const tree::Walker& walker, VisitWork before, const double* rhs, VisitWork after);
   // lane_walks.cpp, residual_walks.cpp: visits of groups
   void factor_group(int group, const VisitWork& before);
-  void forward_group(int group);
+  void forward_group(int group, bool while_factoring = false);
   void backward_group(int group);
   void residual_group(int group);
   void check_front_symmetric(int index);
@@ -246,12 +248,14 @@ struct Hierarchical::State {
   void add_child(tree::FrontId child, const FrontData& parent, int first, int last);
   void add_child_both_ways(tree::FrontId child, const FrontData& parent);
   void eliminate_front(tree::FrontId f);
+  void note_order(tree::FrontId f);
   // inertia.cpp
   void keep_root(const FrontData& root);
   int count_negative_in_root();
   // solve_walks.cpp
   void forward_front(tree::FrontId f);
   void gather_rhs(tree::FrontId f, double* gathered);
+  void gather_boundary(tree::FrontId f, double* boundary) const;
   void backward_front(tree::FrontId f);
   void prefetch_front(tree::FrontId f) const;
   bool checks() const { return options.check != SolveCheck::none; }

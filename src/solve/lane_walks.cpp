@@ -18,7 +18,7 @@ void Hierarchical::State::factor_group(int index, const VisitWork& before) {
     check_element_symmetric(index, lanes.batches[at(b)].element[0]);
   factor_subdomain(group.subdomains.front());
   if (visit_rhs == nullptr || group.subdomains.front() == tree.root()) return;
-  forward_group(index);
+  forward_group(index, true);
   mark(tree::Stage::forward);
 }
 
@@ -107,7 +107,8 @@ void Hierarchical::State::check_element_symmetric(int group, int element) {
   if (found.element < 0 && Asymmetry::shows(difference)) found = {element, difference};
 }
 
-void Hierarchical::State::forward_group(int index) {
+/// while_factoring: other visits may factor their fronts at the same time, and these are not read.
+void Hierarchical::State::forward_group(int index, bool while_factoring) {
   const LaneGroup& group = lanes.groups[at(index)];
   if (group.in_lanes)
     return with_scratch(index, [&] {
@@ -118,8 +119,9 @@ void Hierarchical::State::forward_group(int index) {
     });
   const tree::SubdomainId s = group.subdomains.front();
   const tree::Subdomain& sub = tree.subdomains[at(s)];
+  const tree::FrontId last = while_factoring ? sub.front_end - 1 : tree.num_fronts() - 1;
   for (tree::FrontId f = sub.front_begin; f < sub.front_end; ++f) {
-    if (fronts_are_far && f + 1 < sub.front_end) prefetch_front(f + 1);  // others may be factored at the same time
+    if (fronts_are_far && f < last) prefetch_front(f + 1);
     forward_front(f);
   }
   if (options.elimination == Elimination::augmented && s != tree.root()) correct_forward(s);
@@ -133,7 +135,7 @@ void Hierarchical::State::backward_group(int index) {
     });
   const tree::Subdomain& s = tree.subdomains[at(group.subdomains.front())];
   for (tree::FrontId f = s.front_end; f-- > s.front_begin;) {
-    if (fronts_are_far && f > s.front_begin) prefetch_front(f - 1);
+    if (fronts_are_far && f > 0) prefetch_front(f - 1);
     backward_front(f);
     hand_down(f);
   }

@@ -71,8 +71,8 @@ void Hierarchical::State::eval_null_candidates() {
   null_space.left.assign(at(k) * n, 0.0);
   correction.resize(n);
   x = correction.data();  // there is no present solution
-  for (FrontData& d : fronts) std::fill(d.vector, d.vector + d.pivots, 0.0);
   for (int v = 0; v < k; ++v) {
+    for (FrontData& d : fronts) std::fill(d.vector, d.vector + d.pivots, 0.0);
     for (int i = 0; i < k; ++i) {
       const std::size_t u = at(root.columns[root.pivots + i]);
       x[u] = i == v ? scales.column[u] : 0.0;

@@ -3,22 +3,28 @@
 #include <cmath>
 
 #include "bough/blocks/at.hpp"
+#include "dense_tiles.hpp"
 #include "hierarchical_state.hpp"
 
 namespace bough::solve {
 
 void Hierarchical::State::forward_front(tree::FrontId f) {
   FrontData& d = data(f);
-  with_vector(d, [&](double* gathered) {
-    gather_rhs(f, gathered);
-    for (int i = 0; i < d.full; ++i) d.vector[i] = gathered[d.row_from[i]];
-    std::copy(gathered + d.full, gathered + d.size, d.vector + d.full);
-  });
+  if (d.rows_in_order) {
+    gather_rhs(f, d.vector);
+  } else {
+    with_vector(d, [&](double* gathered) {
+      gather_rhs(f, gathered);
+      for (int i = 0; i < d.full; ++i) d.vector[i] = gathered[d.row_from[i]];
+      std::copy(gathered + d.full, gathered + d.size, d.vector + d.full);
+    });
+  }
   substitute_forward(d.matrix(), d.pivots, d.vector);
 }
 
-/// Prefetches what the substitutions of a front on the scalar path read. The fronts of a leaf are small: without it a
-/// substitution waits for memory longer than it computes.
+/// Prefetches what the substitutions of a front on the scalar path read. Most fronts are small: without it a
+/// substitution waits for memory longer than it computes. Mostly the next front, and the one before it, are those that
+/// a thread comes to next on the way up and down.
 void Hierarchical::State::prefetch_front(tree::FrontId f) const {
   static constexpr std::int64_t most_packs = 256;
   const auto fetch = [](const void* first, std::int64_t doubles) {
@@ -58,21 +64,31 @@ void Hierarchical::State::gather_rhs(tree::FrontId f, double* gathered) {
       const Run& run = runs[at(r)];
       double* to = gathered + d.delayed_in + run.to;
       const double* from = c.vector + c.full + run.from;
-      for (int i = 0; i < run.length; ++i) to[i] += from[i];
+      tiles::add_to(run.length, from, to);
     }
   }
 }
 
+/// The solution at the boundary of a front, scaled: rows of its parent, whose vector has them in order unless columns
+/// were exchanged.
+void Hierarchical::State::gather_boundary(tree::FrontId f, double* boundary) const {
+  const tree::FrontId parent = front(f).parent;
+  if (parent == tree::none || !is_scalar(parent) || !data(parent).columns_in_order)
+    return for_boundary(f, [&](int i, std::size_t u) { boundary[i] = x[u] * inverse_column[u]; });
+  const double* from = data(parent).vector + data(parent).delayed_in;
+  for (std::int64_t r = run_begin[at(f)]; r < run_begin[at(f) + 1]; ++r)
+    std::copy_n(from + runs[at(r)].to, runs[at(r)].length, boundary + runs[at(r)].from);
+}
+
+/// In place of the condensed right-hand side, which nobody reads any more.
 void Hierarchical::State::backward_front(tree::FrontId f) {
   FrontData& d = data(f);
-  with_vector(d, [&](double* y) {
-    std::copy(d.vector, d.vector + d.pivots, y);
-    for (int i = d.full - d.dependent; i < d.full; ++i) x[at(d.columns[i])] = 0.0;
-    for (int i = d.pivots; i < d.full; ++i) y[i] = x[at(d.columns[i])] * inverse_column[at(d.columns[i])];
-    for_boundary(f, [&](int i, std::size_t u) { y[d.full + i] = x[u] * inverse_column[u]; });
-    substitute_backward(d.matrix(), d.pivots, y);
-    for (int i = 0; i < d.pivots; ++i) x[at(d.columns[i])] = scales.column[at(d.columns[i])] * y[i];
-  });
+  double* y = d.vector;
+  gather_boundary(f, y + d.full);
+  for (int i = d.full - d.dependent; i < d.full; ++i) x[at(d.columns[i])] = 0.0;
+  for (int i = d.pivots; i < d.full; ++i) y[i] = x[at(d.columns[i])] * inverse_column[at(d.columns[i])];
+  substitute_backward(d.matrix(), d.pivots, y);
+  for (int i = 0; i < d.pivots; ++i) x[at(d.columns[i])] = scales.column[at(d.columns[i])] * y[i];
 }
 
 /// x = solution of A x = b, which may be the same array. Remaining unknowns of the root (dependent rows) are zero at

@@ -117,6 +117,17 @@ void Hierarchical::State::eliminate_front(tree::FrontId f) {
     return;
   }
   decide_dependent(f);
+  note_order(f);
+}
+
+/// Where pivots have exchanged nothing, vectors of fronts are gathered and handed to children by runs.
+void Hierarchical::State::note_order(tree::FrontId f) {
+  FrontData& d = data(f);
+  d.rows_in_order = d.columns_in_order = true;
+  for (int i = 0; i < d.full; ++i) d.rows_in_order = d.rows_in_order && d.row_from[i] == i;
+  const int* own = own_unknowns.data() + own_begin[at(f)];
+  for (int i = d.delayed_in; i < d.full; ++i)
+    d.columns_in_order = d.columns_in_order && d.columns[i] == own[i - d.delayed_in];
 }
 
 }  // namespace bough::solve
