@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "bough/blocks/at.hpp"
@@ -166,92 +167,135 @@ int Bisector::centroid_block(const std::vector<int>& elements, const Pieces& pie
 /// What the separator of a cut and those of its two sides will cost: E(s, b) flops for s unknowns to eliminate and b
 /// on the boundary. The separators of the sides are not known yet: as a guess smaller by the ratio of the weights to
 /// the power 1/2.
-double Bisector::predict_flops(const Cut& cut) {
-  double own = 0.0, sides = 0.0, weight[2] = {0.0, 0.0};
-  int separator = 0, boundary = 0, held[2] = {0, 0};
-  for (int b : loaded_) (touches_[at(b)] == adjacency_.degree(b) ? separator : boundary) += adjacency_.size_of(b);
-  std::vector<int> touched;
-  for (int k : {0, 1}) {
-    touched.clear();
-    for (int e : cut.side[k]) {
-      weight[k] += weight_of(e);
-      for (int b : adjacency_.blocks_of(e))
-        if (side_touches_[at(b)]++ == 0) touched.push_back(b);
-    }
-    for (int b : touched) {
-      const int size = adjacency_.size_of(b);
-      if (side_touches_[at(b)] == adjacency_.degree(b)) {
-        separator -= size;
-      } else {
-        held[k] += size;
-      }
-      side_touches_[at(b)] = 0;
-    }
+double Bisector::predict_flops(const std::vector<int>& elements, const std::vector<std::uint8_t>& sides) {
+  double weight[2] = {0.0, 0.0};
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    weight[sides[i]] += weight_of(elements[i]);
+    if (sides[i] == 0)
+      for (int b : adjacency_.blocks_of(elements[i])) ++side_touches_[at(b)];
   }
-  own = elimination_flops(separator, boundary);
+  int separator = 0, boundary = 0, held[2] = {0, 0};
+  for (int b : loaded_) {
+    const int size = adjacency_.size_of(b), degree = adjacency_.degree(b);
+    const int touches[2] = {side_touches_[at(b)], touches_[at(b)] - side_touches_[at(b)]};
+    side_touches_[at(b)] = 0;
+    const bool is_inside = touches[0] == degree || touches[1] == degree;
+    if (touches_[at(b)] != degree)
+      boundary += size;
+    else if (!is_inside)
+      separator += size;
+    for (int k : {0, 1})
+      if (touches[k] > 0 && touches[k] < degree) held[k] += size;
+  }
+  double sides_flops = 0.0;
   for (int k : {0, 1}) {
     const double next = separator * std::sqrt(weight[k] / (weight[0] + weight[1]));
-    sides += elimination_flops(static_cast<int>(next), held[k]);
+    sides_flops += elimination_flops(static_cast<int>(next), held[k]);
   }
-  return own + sides;
+  return elimination_flops(separator, boundary) + sides_flops;
+}
+
+/// Vertices: connecting blocks of the piece; a joint's multipliers (one element each) weigh on its first connecting
+/// block.
+Bisector::PieceGraph Bisector::graph_of(const std::vector<int>& elements, const Pieces& pieces, int piece) {
+  PieceGraph g;
+  g.element_begin.assign(1, 0);
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    int first = -1, extra = 0;
+    const bool is_in = pieces.of_element[i] == piece;
+    for (int b : is_in ? adjacency_.blocks_of(elements[i]) : std::span<const int>()) {
+      if (!connects(b)) {
+        extra += adjacency_.is_motion(b) ? 0 : adjacency_.size_of(b);
+        continue;
+      }
+      int& vertex = local_[at(b)];
+      if (vertex < 0) {
+        vertex = static_cast<int>(g.blocks.size());
+        g.blocks.push_back(b);
+        g.graph.weights.push_back(adjacency_.size_of(b));
+      }
+      if (first < 0) first = vertex;
+      g.element_vertices.push_back(vertex);
+    }
+    if (first >= 0) g.graph.weights[at(first)] += extra;
+    g.element_begin.push_back(static_cast<int>(g.element_vertices.size()));
+  }
+  std::vector<int> met(g.blocks.size(), -1);
+  std::vector<int>& columns = g.graph.columns;
+  g.graph.row_begin.assign(1, 0);
+  for (std::size_t v = 0; v < g.blocks.size(); ++v) {
+    met[v] = static_cast<int>(v);
+    for (int e : adjacency_.elements_of(g.blocks[v]))
+      for (int b : adjacency_.blocks_of(e)) {
+        const int w = local_[at(b)];
+        if (w < 0 || met[at(w)] == static_cast<int>(v)) continue;
+        met[at(w)] = static_cast<int>(v);
+        columns.push_back(w);
+      }
+    std::sort(columns.begin() + g.graph.row_begin.back(), columns.end());
+    g.graph.row_begin.push_back(static_cast<int>(columns.size()));
+  }
+  for (int b : g.blocks) local_[at(b)] = -1;
+  return g;
+}
+
+/// The pieces that are left of the set once the vertices of part 2, the separator, connect nothing.
+Bisector::Pieces Bisector::find_pieces_beside(const std::vector<int>& part, const PieceGraph& graph,
+                                              const std::vector<int>& elements, const Pieces& before, int piece) const {
+  std::vector<int> component(part.size(), -1), stack;
+  int components = 0;
+  for (std::size_t start = 0; start < part.size(); ++start) {
+    if (part[start] == 2 || component[start] >= 0) continue;
+    component[start] = components;
+    stack.assign(1, static_cast<int>(start));
+    while (!stack.empty()) {
+      const int v = stack.back();
+      stack.pop_back();
+      for (int c = graph.graph.row_begin[at(v)]; c < graph.graph.row_begin[at(v) + 1]; ++c) {
+        const int w = graph.graph.columns[at(c)];
+        if (part[at(w)] == 2 || component[at(w)] >= 0) continue;
+        component[at(w)] = components;
+        stack.push_back(w);
+      }
+    }
+    ++components;
+  }
+  Pieces pieces;  // numbered by their first elements
+  pieces.of_element.resize(elements.size());
+  std::vector<int> of_component(at(components), -1), of_other(at(before.count), -1);
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    int alone = -1;  // an element whose connecting blocks are all in the separator
+    int* number = before.of_element[i] == piece ? &alone : &of_other[at(before.of_element[i])];
+    for (int k = graph.element_begin[i]; k < graph.element_begin[i + 1]; ++k)
+      if (const int c = component[at(graph.element_vertices[at(k)])]; c >= 0) {
+        number = &of_component[at(c)];
+        break;
+      }
+    if (*number < 0) {
+      *number = pieces.count++;
+      pieces.weight.push_back(0.0);
+    }
+    pieces.of_element[i] = *number;
+    pieces.weight[at(*number)] += weight_of(elements[i]);
+  }
+  return pieces;
 }
 
 Cut Bisector::cut_by_separator(const std::vector<int>& elements, const Pieces& pieces, int piece) {
   used_separator_ = true;
-  // Vertices: connecting blocks of the piece; a joint's multipliers (one element each) weigh on its first connecting
-  // block.
-  std::vector<int> vertices, weights;
-  std::vector<std::vector<int>> neighbours;
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    if (pieces.of_element[i] != piece) continue;
-    for (int b : adjacency_.blocks_of(elements[i])) {
-      if (!connects(b) || local_[at(b)] >= 0) continue;
-      local_[at(b)] = static_cast<int>(vertices.size());
-      vertices.push_back(b);
-      weights.push_back(adjacency_.size_of(b));
-    }
-  }
-  neighbours.resize(vertices.size());
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    if (pieces.of_element[i] != piece) continue;
-    int first = -1, extra = 0;
-    for (int b : adjacency_.blocks_of(elements[i])) {
-      const int v = local_[at(b)];
-      if (v < 0) {
-        extra += adjacency_.is_motion(b) ? 0 : adjacency_.size_of(b);
-        continue;
-      }
-      if (first < 0) first = v;
-      for (int c : adjacency_.blocks_of(elements[i]))
-        if (local_[at(c)] >= 0 && c != b) neighbours[at(v)].push_back(local_[at(c)]);
-    }
-    if (first >= 0) weights[at(first)] += extra;
-  }
-  VertexGraph graph;
-  graph.row_begin.assign(1, 0);
-  graph.weights = weights;
-  for (auto& row : neighbours) {
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-    graph.columns.insert(graph.columns.end(), row.begin(), row.end());
-    graph.row_begin.push_back(static_cast<int>(graph.columns.size()));
-  }
-  for (int b : vertices) local_[at(b)] = -1;
-  Cut best;
+  const PieceGraph graph = graph_of(elements, pieces, piece);
+  std::vector<std::uint8_t> best;
   double least = 0.0;
-  const int trials = static_cast<int>(vertices.size()) < small_set ? few_trials : most_trials;
+  const int trials = static_cast<int>(graph.blocks.size()) < small_set ? few_trials : most_trials;
   for (int trial = 0; trial < trials; ++trial) {
-    const std::vector<int> part = separate_vertices(graph, seed_ + static_cast<unsigned>(trial));
-    for (std::size_t v = 0; v < vertices.size(); ++v)
-      if (part[v] == 2) removed_[at(vertices[v])] = 1;
-    Cut cut = deal_out(elements, find_pieces(elements));
-    for (int b : vertices) removed_[at(b)] = 0;
-    const double flops = predict_flops(cut);
+    const std::vector<int> part = separate_vertices(graph.graph, seed_ + static_cast<unsigned>(trial));
+    std::vector<std::uint8_t> sides = choose_sides(find_pieces_beside(part, graph, elements, pieces, piece));
+    const double flops = predict_flops(elements, sides);
     if (trial > 0 && !(flops < least)) continue;
     least = flops;
-    best = std::move(cut);
+    best = std::move(sides);
   }
-  return best;
+  return deal_out(elements, best);
 }
 
 Cut Bisector::cut(const std::vector<int>& elements) {
@@ -272,30 +316,32 @@ Cut Bisector::cut(const std::vector<int>& elements) {
       return cut_by_separator(elements, pieces, largest);
     }
   }
-  return deal_out(elements, pieces);
+  return deal_out(elements, choose_sides(pieces));
 }
 
-Cut Bisector::deal_out(const std::vector<int>& elements, const Pieces& pieces) const {
+std::vector<std::uint8_t> Bisector::choose_sides(const Pieces& pieces) const {
   std::vector<int> order(at(pieces.count));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return pieces.weight[at(a)] > pieces.weight[at(b)]; });
-  std::vector<int> side_of(at(pieces.count), 0);
+  std::vector<std::uint8_t> side_of(at(pieces.count), 0);
   double load[2] = {0.0, 0.0};
   for (int p : order) {
-    const int side = load[1] < load[0] ? 1 : 0;
+    const std::uint8_t side{load[1] < load[0]};
     side_of[at(p)] = side;
     load[side] += pieces.weight[at(p)];
   }
+  std::vector<std::uint8_t> sides(pieces.of_element.size(), 0);
+  if (pieces.count > 1)
+    for (std::size_t i = 0; i < sides.size(); ++i) sides[i] = side_of[at(pieces.of_element[i])];
+  else  // there is no separator: any two halves are a valid cut of the elements
+    std::fill(sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2), sides.end(), std::uint8_t{1});
+  return sides;
+}
+
+Cut Bisector::deal_out(const std::vector<int>& elements, const std::vector<std::uint8_t>& sides) {
   Cut result;
-  for (std::size_t i = 0; i < elements.size(); ++i)
-    result.side[side_of[at(pieces.of_element[i])]].push_back(elements[i]);
-  if (result.side[0].empty() || result.side[1].empty()) {  // there is no separator: any two halves are a valid cut of
-                                                           // the elements
-    const auto half = static_cast<std::ptrdiff_t>(elements.size() / 2);
-    result.side[0].assign(elements.begin(), elements.begin() + half);
-    result.side[1].assign(elements.begin() + half, elements.end());
-  }
+  for (std::size_t i = 0; i < elements.size(); ++i) result.side[sides[i]].push_back(elements[i]);
   return result;
 }
 

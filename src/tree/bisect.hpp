@@ -1,10 +1,16 @@
 #pragma once
 /// One cut of a set of elements into two. Internal to tree.
+#include <cstdint>
 #include <vector>
 
 #include "adjacency.hpp"
 
 namespace bough::tree {
+
+/// A graph in compressed rows.
+struct VertexGraph {
+  std::vector<int> row_begin, columns, weights;
+};
 
 struct Cut {
   std::vector<int> side[2];  ///< element ids, in the order they were given.
@@ -34,13 +40,24 @@ class Bisector {
     std::vector<int> of_element;  ///< by position in the set
     std::vector<double> weight;
   };
+  /// One piece of a set as the graph of its connecting blocks, which are neighbours if an element holds both.
+  struct PieceGraph {
+    std::vector<int> blocks;  ///< by vertex
+    VertexGraph graph;
+    std::vector<int> element_begin, element_vertices;  ///< vertices of each element of the set; other pieces: none
+  };
   void load(const std::vector<int>& elements);
   Pieces find_pieces(const std::vector<int>& elements) const;
   bool piece_is_tree(const std::vector<int>& elements, const Pieces& pieces, int piece) const;
   int centroid_block(const std::vector<int>& elements, const Pieces& pieces, int piece);
+  PieceGraph graph_of(const std::vector<int>& elements, const Pieces& pieces, int piece);
+  Pieces find_pieces_beside(const std::vector<int>& part, const PieceGraph& graph, const std::vector<int>& elements,
+                            const Pieces& before, int piece) const;
   Cut cut_by_separator(const std::vector<int>& elements, const Pieces& pieces, int piece);
-  Cut deal_out(const std::vector<int>& elements, const Pieces& pieces) const;
-  double predict_flops(const Cut& cut);
+  /// Side 0 or 1 of each element: pieces are distributed by weight, the largest first.
+  std::vector<std::uint8_t> choose_sides(const Pieces& pieces) const;
+  static Cut deal_out(const std::vector<int>& elements, const std::vector<std::uint8_t>& sides);
+  double predict_flops(const std::vector<int>& elements, const std::vector<std::uint8_t>& sides);
   double weight_of(int element) const { return weight_[static_cast<std::size_t>(element)]; }
   bool connects(int block) const;
 
@@ -54,12 +71,7 @@ class Bisector {
   mutable std::vector<char> spread_;   ///< by block: find_pieces has gone on to its elements (scratch)
   std::vector<char> removed_;          ///< by block: separator of the present cut
   std::vector<int> local_;             ///< by block: vertex number in a separator graph, or -1
-  std::vector<int> side_touches_;      ///< by block: elements of the present side that hold it (scratch)
-};
-
-/// A graph in compressed rows.
-struct VertexGraph {
-  std::vector<int> row_begin, columns, weights;
+  std::vector<int> side_touches_;      ///< by block: elements of the first side that hold it (scratch)
 };
 
 /// Vertex separator of a graph: part 0, 1, or 2 (the separator) of each vertex. Uses METIS if it was built in and the
