@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 
 #include "bough/scene/components.hpp"
 #include "bough/scene/poses.hpp"
+#include "geometry.hpp"
 #include "plan_builder.hpp"
 
 namespace bough::plan {
@@ -25,6 +27,7 @@ Port section_port(int node, const Frame<double>& node_pose, const Frame<double>&
   Port port;
   port.node = node;
   const Frame<double> offset = motion::relative(node_pose, section);
+  if (is_identity(offset)) return port;
   const Vec6<double> size = motion::Se3::log(offset);
   const double shift = std::sqrt(lanes::dot(lanes::linear_part(size), lanes::linear_part(size)));
   const double turn = std::sqrt(lanes::dot(lanes::angular_part(size), lanes::angular_part(size)));
@@ -100,16 +103,18 @@ void Builder::add_beams() {
   reserve_elements<2>(*this, 1);
   reserve_elements<3>(*this, 2);
   reserve_elements<4>(*this, 3);
+  plan.beams.reserve(scene.beams.size());
   for (const scene::Beam& beam : scene.beams) {
     const int start = node_of.at(beam.start), end = node_of.at(beam.end);
     BeamPlan p;
     p.name = beam.name;
     p.order = beam.order;
-    p.length = poses.length_of(beam);
+    const scene::BeamAxis axis = poses.axis_of(beam).value();
+    p.length = axis.length;
     const int last = beam.elements * beam.order;
     std::vector<Port> ports(static_cast<std::size_t>(last) + 1);
     for (int k = 0; k <= last; ++k) {
-      const Frame<double> section = poses.of_section(beam, static_cast<double>(k) / last).value();
+      const Frame<double> section = axis.at(static_cast<double>(k) / last);
       Port& port = ports[static_cast<std::size_t>(k)];
       if (k == 0 || k == last) {
         const int node = k == 0 ? start : end;
@@ -130,27 +135,25 @@ void Builder::add_beams() {
 }
 
 void Builder::add_sensors() {
-  std::unordered_map<std::string, int> beam_of, joint_of;
-  for (std::size_t i = 0; i < plan.beams.size(); ++i) beam_of[plan.beams[i].name] = static_cast<int>(i);
-  for (std::size_t i = 0; i < plan.joints.size(); ++i)  // the first joint of a prescribed motion
+  if (scene.sensors.empty()) return;
+  std::unordered_map<std::string_view, int> joint_of;
+  const bool reads_joints =
+      std::any_of(scene.sensors.begin(), scene.sensors.end(), [](const scene::Sensor& s) { return !s.joint.empty(); });
+  for (std::size_t i = 0; i < plan.joints.size() && reads_joints; ++i)  // the first joint of a prescribed motion
     joint_of.emplace(plan.joints[i].name, static_cast<int>(i));
-  std::unordered_map<std::string_view, const scene::JointType*> type_of_joint;
-  for (const scene::Joint& j : scene.joints) type_of_joint.emplace(j.name, &scene::type_of(j.kind));
-  const auto index_in = [](const std::unordered_map<std::string, int>& list, const std::string& name) {
-    const auto at = name.empty() ? list.end() : list.find(name);
-    return at == list.end() ? -1 : at->second;
-  };
   for (const scene::Sensor& s : scene.sensors) {
     SensorPlan p;
     p.sensor = s;
-    if (const auto type = type_of_joint.find(s.joint); type != type_of_joint.end())
-      if (const scene::JointCoordinate* measured = scene::coordinate_of(s, *type->second)) {
+    if (const auto joint = poses.find(s.joint); joint && joint->kind == scene::ThingKind::joint)
+      if (const scene::JointCoordinate* measured =
+              scene::coordinate_of(s, scene::type_of(scene.joints[joint->index].kind))) {
         p.sensor.coordinate = measured->name;
         p.coordinate = measured->kind;
       }
     for (const scene::SensorComponent& c : scene::type_of(s.kind).components) p.components.push_back(c.name);
-    p.beam = index_in(beam_of, s.beam);
-    p.joint = index_in(joint_of, s.joint);
+    if (const auto beam = poses.find(s.beam); beam && beam->kind == scene::ThingKind::beam)
+      p.beam = static_cast<int>(beam->index);
+    if (const auto joint = joint_of.find(s.joint); joint != joint_of.end()) p.joint = joint->second;
     if (!s.signal.empty()) {
       p.signal = law_of_signal.at(s.signal);
       p.signal_unit = unit_of_signal.at(s.signal);

@@ -16,9 +16,10 @@ constexpr std::size_t most_parts = 1000;
 
 using Matrix = Eigen::MatrixXd;
 
-/// Basis of the relative twists that the rows allow: 6 x (6 - rank).
-Matrix freedoms_of(const std::vector<Twist>& rows) {
+/// Basis of the relative twists that the rows of an edge allow: 6 x (6 - rank).
+Matrix freedoms_of(const LinkEdge& edge, const std::vector<Twist>& rows) {
   if (rows.empty()) return Matrix::Identity(6, 6);
+  if (edge.is_beam) return Matrix(6, 0);  // its rows are the unit vectors
   Matrix A(static_cast<Eigen::Index>(rows.size()), 6);
   for (std::size_t i = 0; i < rows.size(); ++i) A.row(static_cast<Eigen::Index>(i)) = rows[i].transpose();
   Eigen::FullPivLU<Matrix> lu(A);
@@ -104,6 +105,11 @@ std::vector<Twist> Linkage::rows_of(int edge, int relaxed) const {
   return rows;
 }
 
+int Linkage::num_rows(int edge, int relaxed) const {
+  return static_cast<int>(edge == relaxed ? rows_of(edge, relaxed).size()
+                                          : edges_[static_cast<std::size_t>(edge)].rows.size());
+}
+
 Twist LinkComponent::twist_of(int part, Eigen::Index motion) const {
   const auto known = place.find(part);
   return known == place.end() ? Twist(Twist::Zero()) : Twist(motions.block<6, 1>(6 * known->second, motion));
@@ -111,10 +117,11 @@ Twist LinkComponent::twist_of(int part, Eigen::Index motion) const {
 
 namespace {
 
-/// Computes the rank of the rows that close loops, and the remaining motions.
+/// Computes the rank of the rows that close loops, and the remaining motions if they are wanted.
 void find_motions(LinkComponent& c, const SpanningTree& tree, const std::vector<LinkEdge>& edges,
-                  const std::vector<std::pair<int, Twist>>& rows) {
-  Matrix kernel = Matrix::Identity(c.freedoms, c.freedoms);
+                  const std::vector<std::pair<int, Twist>>& rows, bool is_wanted) {
+  Matrix kernel;
+  if (is_wanted) kernel = Matrix::Identity(c.freedoms, c.freedoms);
   if (!rows.empty() && c.freedoms > 0) {
     Matrix A = Matrix::Zero(static_cast<Eigen::Index>(rows.size()), c.freedoms);
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -127,8 +134,9 @@ void find_motions(LinkComponent& c, const SpanningTree& tree, const std::vector<
     Eigen::FullPivLU<Matrix> lu(A);
     lu.setThreshold(least_pivot);
     c.rank = static_cast<int>(lu.rank());
-    kernel = c.mobility() > 0 ? Matrix(lu.kernel()) : Matrix(c.freedoms, 0);
+    if (is_wanted) kernel = c.mobility() > 0 ? Matrix(lu.kernel()) : Matrix(c.freedoms, 0);
   }
+  if (!is_wanted) return;
   c.motions = Matrix::Zero(6 * static_cast<Eigen::Index>(c.parts.size()), c.mobility());
   if (c.mobility() == 0) return;
   for (const int part : c.parts) {
@@ -141,7 +149,7 @@ void find_motions(LinkComponent& c, const SpanningTree& tree, const std::vector<
 
 }  // namespace
 
-std::vector<LinkComponent> Linkage::solve(int relaxed) const {
+std::vector<LinkComponent> Linkage::solve(MotionsOf wanted, int relaxed) const {
   const auto num_parts = static_cast<std::size_t>(num_parts_);
   SpanningTree tree = make_spanning_tree(edges_, num_parts);
   Sets sets(num_parts);
@@ -159,35 +167,43 @@ std::vector<LinkComponent> Linkage::solve(int relaxed) const {
     LinkComponent& component = components[static_cast<std::size_t>(c)];
     const int edge = tree.steps[static_cast<std::size_t>(part)].edge;
     component.parts.push_back(part);
-    component.freedoms += edge < 0 ? 6 : std::max(0, 6 - static_cast<int>(rows_of(edge, relaxed).size()));
+    component.freedoms += edge < 0 ? 6 : std::max(0, 6 - num_rows(edge, relaxed));
   }
-  std::vector<std::vector<std::pair<int, Twist>>> closing(components.size());
+  std::vector<std::vector<int>> closing(components.size());
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const int part = edges_[e].first == ground ? edges_[e].second : edges_[e].first;
     if (part == ground) continue;
     const auto c = static_cast<std::size_t>(component_of[sets.of(static_cast<std::size_t>(part))]);
     components[c].edges.push_back(static_cast<int>(e));
     components[c].reaches_ground |= edges_[e].first == ground || edges_[e].second == ground;
-    if (tree.is_closing[e])
-      for (const Twist& row : rows_of(static_cast<int>(e), relaxed)) closing[c].emplace_back(static_cast<int>(e), row);
+    if (!tree.is_closing[e]) continue;
+    components[c].closing_rows += num_rows(static_cast<int>(e), relaxed);
+    closing[c].push_back(static_cast<int>(e));
   }
   for (std::size_t k = 0; k < components.size(); ++k) {
     LinkComponent& c = components[k];
-    c.closing_rows = static_cast<int>(closing[k].size());
     if (c.freedoms > most_columns || c.parts.size() > most_parts) {
       c.is_rank_known = c.closing_rows == 0;
       c.rank = std::min(c.freedoms, c.closing_rows);
       continue;
     }
+    if (wanted == MotionsOf::loops && c.closing_rows == 0) continue;
+    const bool is_wanted = wanted != MotionsOf::none;
     c.freedoms = 0;
     for (const int part : c.parts) {
       SpanningTree::Step& step = tree.steps[static_cast<std::size_t>(part)];
-      step.basis = step.edge < 0 ? Matrix(Matrix::Identity(6, 6)) : freedoms_of(rows_of(step.edge, relaxed));
       step.begin = c.freedoms;
-      c.freedoms += static_cast<int>(step.basis.cols());
-      c.place.emplace(part, static_cast<int>(c.place.size()));
+      if (step.edge >= 0)
+        step.basis = freedoms_of(edges_[static_cast<std::size_t>(step.edge)], rows_of(step.edge, relaxed));
+      else if (is_wanted || c.closing_rows > 0)
+        step.basis = Matrix::Identity(6, 6);
+      c.freedoms += step.edge >= 0 ? static_cast<int>(step.basis.cols()) : 6;
+      if (is_wanted) c.place.emplace(part, static_cast<int>(c.place.size()));
     }
-    find_motions(c, tree, edges_, closing[k]);
+    std::vector<std::pair<int, Twist>> rows;
+    for (const int e : closing[k])
+      for (const Twist& row : rows_of(e, relaxed)) rows.emplace_back(e, row);
+    find_motions(c, tree, edges_, rows, is_wanted);
   }
   return components;
 }

@@ -35,11 +35,15 @@ struct LinkComponent {
   bool reaches_ground = false;
   int mobility() const { return freedoms - rank; }
   /// Twists of all parts for each independent motion that remains, [6 * parts.size() x mobility]. Empty if the
-  /// component is too large.
+  /// component is too large, or its motions were not asked for.
   Eigen::MatrixXd motions;
   std::map<int, int> place;  ///< index of a part in `parts`
   Twist twist_of(int part, Eigen::Index motion) const;
 };
+
+/// Components whose motions Linkage::solve computes. `none`: freedoms and ranks alone; `loops`: of components without
+/// loops not even ranks.
+enum class MotionsOf { none, loops, all };
 
 class Linkage {
  public:
@@ -48,6 +52,7 @@ class Linkage {
   Linkage(Vec3d center, double size) : center_(center), size_(size) {}
   int add_part() { return num_parts_++; }
   void add(LinkEdge edge) { edges_.push_back(std::move(edge)); }
+  void reserve(std::size_t num_edges) { edges_.reserve(num_edges); }
 
   /// Rows for the velocity of the point x of a part along a direction, and for the rotation of the part about a
   /// direction.
@@ -55,15 +60,15 @@ class Linkage {
   static Twist about(const Vec3d& direction);
 
   const std::vector<LinkEdge>& edges() const { return edges_; }
-  /// Motions of every component. `relaxed`: an edge that is modified to let its sides rotate relative to each other;
-  /// -1: none.
-  std::vector<LinkComponent> solve(int relaxed = -1) const;
+  /// All components. `relaxed`: an edge that is modified to let its sides rotate relative to each other; -1: none.
+  std::vector<LinkComponent> solve(MotionsOf wanted, int relaxed = -1) const;
 
   const Vec3d& center() const { return center_; }
   double size() const { return size_; }
 
  private:
   std::vector<Twist> rows_of(int edge, int relaxed) const;
+  int num_rows(int edge, int relaxed) const;
 
   Vec3d center_;
   double size_;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "bough/scene/joint_kinds.hpp"
 #include "geometry.hpp"
@@ -18,7 +19,17 @@ namespace {
 
 Vec3d axis_of(const Frame& H, int k) { return {{H.R(0, k), H.R(1, k), H.R(2, k)}}; }
 
-/// Center and size of the box around all nodes and bodies and the places of all joints.
+/// Whether every motion of a body has inertia.
+bool has_whole_inertia(const scene::Body& b) {
+  const Mat3& J = b.inertia;
+  const double trace = J(0, 0) + J(1, 1) + J(2, 2);
+  const Vec3d rows[3] = {{{J(0, 0), J(0, 1), J(0, 2)}}, {{J(1, 0), J(1, 1), J(1, 2)}}, {{J(2, 0), J(2, 1), J(2, 2)}}};
+  const double volume = lanes::dot(rows[0], lanes::cross(rows[1], rows[2]));
+  return b.mass > 0.0 && volume > 1e-12 * trace * trace * trace;
+}
+
+}  // namespace
+
 Linkage empty_linkage(const scene::Scene& scene, const scene::Poses& poses) {
   Vec3d low = Vec3d::zero(), high = low;
   bool is_first = true;
@@ -37,66 +48,68 @@ Linkage empty_linkage(const scene::Scene& scene, const scene::Poses& poses) {
   return Linkage(0.5 * (low + high), size > 0.0 ? size : 1.0);
 }
 
-/// Whether every motion of a body has inertia.
-bool has_whole_inertia(const scene::Body& b) {
-  const Mat3& J = b.inertia;
-  const double trace = J(0, 0) + J(1, 1) + J(2, 2);
-  const Vec3d rows[3] = {{{J(0, 0), J(0, 1), J(0, 2)}}, {{J(1, 0), J(1, 1), J(1, 2)}}, {{J(2, 0), J(2, 1), J(2, 2)}}};
-  const double volume = lanes::dot(rows[0], lanes::cross(rows[1], rows[2]));
-  return b.mass > 0.0 && volume > 1e-12 * trace * trace * trace;
-}
-
-}  // namespace
-
-SceneLinkage::SceneLinkage(const scene::Scene& scene, const scene::Poses& poses, const LinkageChoice& choice)
-    : linkage(empty_linkage(scene, poses)),
-      names(1),
-      has_beam(1, false),
-      scene_(scene),
-      poses_(poses),
-      choice_(choice) {
-  const auto add_part = [this](const std::string& name) {
-    part_of_[name] = linkage.add_part();
-    names.push_back(name);
-    has_beam.push_back(false);
-  };
-  std::set<std::string> massive;
+SceneLinkage::SceneLinkage(const scene::Scene& scene, const scene::Poses& poses, const Linkage& empty,
+                           const LinkageChoice& choice)
+    : linkage(empty), names(1), has_beam(1, false), scene_(scene), poses_(poses), choice_(choice) {
+  std::vector<bool> is_massive(scene.nodes.size() + scene.bodies.size(), false);
+  for (std::size_t b = 0; b < scene.bodies.size() && choice.mass_holds; ++b)
+    is_massive[scene.nodes.size() + b] =
+        choice.nothing_turns ? scene.bodies[b].mass > 0.0 : has_whole_inertia(scene.bodies[b]);
   for (const scene::Beam& b : scene.beams)
-    if (choice.mass_holds) massive.insert({b.start, b.end});
-  for (const scene::Body& b : scene.bodies)
-    if (choice.mass_holds && has_whole_inertia(b)) massive.insert(b.name);
-  for (const std::string& name : massive) part_of_[name] = Linkage::ground;
-  for (const scene::Node& n : scene.nodes)
-    if (massive.count(n.name) == 0) add_part(n.name);
-  for (const scene::Body& b : scene.bodies)
-    if (massive.count(b.name) == 0) add_part(b.name);
+    if (choice.mass_holds)
+      for (const std::string* end : {&b.start, &b.end})
+        if (const auto place = place_of(*end)) is_massive[*place] = true;
+  part_at_.assign(is_massive.size(), Linkage::ground);
+  for (std::size_t place = 0; place < is_massive.size(); ++place)
+    if (!is_massive[place])
+      part_at_[place] = add_part(place < scene.nodes.size() ? scene.nodes[place].name
+                                                            : scene.bodies[place - scene.nodes.size()].name);
+  linkage.reserve(scene.joints.size() + (choice.beams_are_rigid ? scene.beams.size() : 0));
   for (const scene::Beam& b : scene.beams) {
     if (!choice.beams_are_rigid) continue;
     LinkEdge weld{part_of(b.start), part_of(b.end), b.name, {}, Vec3d::zero(), false, true};
+    for (const int part : {weld.first, weld.second}) has_beam[static_cast<std::size_t>(part)] = true;
+    if (weld.first == weld.second) continue;
+    weld.rows.reserve(6);
     for (int k = 0; k < 3; ++k) weld.rows.push_back(linkage.along(Vec3d::unit(k), linkage.center()));
     for (int k = 0; k < 3; ++k) weld.rows.push_back(Linkage::about(Vec3d::unit(k)));
-    for (const int part : {weld.first, weld.second}) has_beam[static_cast<std::size_t>(part)] = true;
-    if (weld.first != weld.second) linkage.add(weld);
+    linkage.add(std::move(weld));
   }
   for (const scene::Joint& j : scene.joints) add_joint(j);
   for (const scene::PrescribedMotion& m : scene.motions) add_motion(m);
   if (choice.stiffness_holds) add_stiffness();
   if (choice.drives_hold) add_point_masses();
-  for (const scene::Body& b : scene.bodies)
-    if (choice.mass_holds && massive.count(b.name) == 0) add_masses(b);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    if (choice.mass_holds && !is_massive[scene.nodes.size() + b]) add_masses(scene.bodies[b]);
+}
+
+int SceneLinkage::add_part(const std::string& name) {
+  names.push_back(name);
+  has_beam.push_back(false);
+  return linkage.add_part();
+}
+
+std::optional<std::size_t> SceneLinkage::place_of(std::string_view name) const {
+  const auto thing = poses_.find(name);
+  if (thing && thing->kind == scene::ThingKind::node) return thing->index;
+  if (thing && thing->kind == scene::ThingKind::body) return scene_.nodes.size() + thing->index;
+  return std::nullopt;
 }
 
 int SceneLinkage::part_of(const std::string& place) {
-  const auto known = part_of_.find(place);
-  if (known != part_of_.end()) return known->second;
+  if (place.empty()) return Linkage::ground;
+  if (const auto known = place_of(place)) return part_at_[*known];
   const std::size_t dot_at = place.rfind('.');
-  if (place.empty() || dot_at == std::string::npos) return Linkage::ground;
-  const auto thing = poses_.find(place.substr(0, dot_at));
+  if (dot_at == std::string::npos) return Linkage::ground;
+  const auto thing = poses_.find(std::string_view(place).substr(0, dot_at));
   if (!thing || thing->kind != scene::ThingKind::beam || choice_.mass_holds) return Linkage::ground;
   if (choice_.beams_are_rigid) return part_of(scene_.beams[thing->index].start);
-  names.push_back(place);
-  has_beam.push_back(true);
-  return part_of_[place] = linkage.add_part();
+  const auto [inner, is_new] = part_of_inner_.try_emplace(place, Linkage::ground);
+  if (is_new) {
+    inner->second = add_part(place);
+    has_beam.back() = true;
+  }
+  return inner->second;
 }
 
 void SceneLinkage::hold(const std::string& place, std::vector<Twist> rows) {
@@ -120,13 +133,14 @@ void SceneLinkage::add_joint(const scene::Joint& j) {
   const auto hold_coordinate = [&](const std::string& name) {
     if (const scene::JointCoordinate* coordinate = type.coordinate(name)) hold_row({coordinate->kind});
   };
+  edge.rows.reserve(type.rows.size() + j.drives.size() + j.forces.size());
   if (type.has_common_axis()) edge.axis = axis_of(*H_a, 2);
   for (const scene::JointRow& row : type.rows) hold_row(row);
   for (const scene::JointDrive& d : j.drives)
     if (choice_.drives_hold) hold_coordinate(d.coordinate);
   for (const scene::JointForce& f : j.forces)
     if (choice_.stiffness_holds && f.stiffness > 0.0) hold_coordinate(f.coordinate);
-  linkage.add(edge);
+  linkage.add(std::move(edge));
 }
 
 void SceneLinkage::add_motion(const scene::PrescribedMotion& m) {
@@ -155,7 +169,7 @@ void SceneLinkage::add_stiffness() {
     const bool is_tense = std::abs(length - s.rest_length) > 1e-9 * length;
     for (int k = 0; k < 3 && is_tense; ++k) edge.rows.push_back(linkage.along(Vec3d::unit(k), b->x));
     if (!is_tense) edge.rows.push_back(linkage.along((1.0 / length) * span, b->x));
-    linkage.add(edge);
+    linkage.add(std::move(edge));
   }
   for (const scene::Bushing& u : scene_.bushings) {
     const auto a = poses_.of(u.first), b = poses_.of(u.second);
@@ -170,7 +184,7 @@ void SceneLinkage::add_stiffness() {
                u.stiffness(i, k + 3) * Linkage::about(axis_of(*a, k));
       if (row.norm() > 0.0) edge.rows.push_back(row.normalized());
     }
-    linkage.add(edge);
+    linkage.add(std::move(edge));
   }
 }
 
@@ -242,7 +256,7 @@ void SceneLinkage::restrict_to(Motions motions, const Vec3d& normal) {
     } else {
       for (int k = 0; k < 3; ++k) edge.rows.push_back(Linkage::about(Vec3d::unit(k)));
     }
-    linkage.add(edge);
+    linkage.add(std::move(edge));
   }
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 /// Translates a scene to rigid parts and their connections. Internal to plan.
-#include <set>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -19,11 +20,17 @@ struct LinkageChoice {
   bool drives_hold = false;
   bool stiffness_holds = false;  ///< springs, bushings and springs in joints count as rigid
   bool mass_holds = false;       ///< every motion with inertia counts as held, so that motions without inertia remain
+  bool nothing_turns = false;    ///< a mass is inertia enough to hold a body
 };
+
+/// A linkage without parts, with the center and size of the box around all nodes and bodies and the places of all
+/// joints.
+Linkage empty_linkage(const scene::Scene& scene, const scene::Poses& poses);
 
 class SceneLinkage {
  public:
-  SceneLinkage(const scene::Scene& scene, const scene::Poses& poses, const LinkageChoice& choice);
+  /// empty: as above; the same for all linkages of a scene.
+  SceneLinkage(const scene::Scene& scene, const scene::Poses& poses, const Linkage& empty, const LinkageChoice& choice);
 
   /// Restricts all parts to the motions of a scene in a plane, without rotation or on a line. normal: of the plane.
   void restrict_to(Motions motions, const Vec3d& normal);
@@ -34,6 +41,9 @@ class SceneLinkage {
   int part_of(const std::string& place);  ///< part of a place; frames belong to the ground
 
  private:
+  int add_part(const std::string& name);
+  /// Place of a node or body in part_at_; none for all else.
+  std::optional<std::size_t> place_of(std::string_view name) const;
   void add_joint(const scene::Joint& j);
   void add_motion(const scene::PrescribedMotion& m);
   void add_stiffness();
@@ -44,7 +54,8 @@ class SceneLinkage {
   const scene::Scene& scene_;
   const scene::Poses& poses_;
   LinkageChoice choice_;
-  std::unordered_map<std::string, int> part_of_;
+  std::vector<int> part_at_;                            ///< by node, then by body, in the scene's order
+  std::unordered_map<std::string, int> part_of_inner_;  ///< of nodes within flexible beams
 };
 
 }  // namespace bough::plan

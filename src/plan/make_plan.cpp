@@ -57,6 +57,11 @@ int Builder::add(const E& e, const std::string& owner) {
 }
 
 void Builder::add_bodies() {
+  std::size_t inner = 0;
+  for (const scene::Beam& b : scene.beams) inner += static_cast<std::size_t>(b.elements * b.order - 1);
+  plan.nodes.reserve(scene.nodes.size() + scene.bodies.size() + inner);
+  node_of.reserve(plan.nodes.capacity());
+  array_of<elements::RigidBody>(plan.elements).reserve(scene.bodies.size());
   for (const scene::Node& n : scene.nodes) add_node(n.name, poses.of(n.placement).value_or(n.placement.pose));
   for (const scene::Body& b : scene.bodies) {
     const int id = add_node(b.name, poses.of(b.placement).value_or(b.placement.pose));
@@ -104,6 +109,8 @@ int Builder::add_drive(const laws::Law& law, const std::string& signal, bool is_
 }
 
 void Builder::add_joints() {
+  array_of<elements::Joint>(plan.elements).reserve(scene.joints.size());
+  plan.joints.reserve(scene.joints.size());
   for (const scene::Joint& given : scene.joints) {
     elements::Joint j;
     j.ports[0] = port_at(given.first);
@@ -238,6 +245,7 @@ void Builder::add_initial_velocities() {
 
 /// The nodes keep their numbers from here on.
 void Builder::list_given_velocities() {
+  if (scene.initial_velocities.empty()) return;
   std::unordered_map<std::string_view, const BeamPlan*> beam_of;
   for (const BeamPlan& beam : plan.beams) beam_of.emplace(beam.name, &beam);
   for (const scene::InitialVelocity& v : scene.initial_velocities) {
@@ -330,14 +338,16 @@ double Builder::size_of_structure() const {
 }
 
 void Builder::measure_joints() {
+  if (plan.joints.empty()) return;
   const scene::PartLengths lengths(scene, poses);
-  std::map<std::string, double> length_of;
-  for (const scene::Joint& j : scene.joints) length_of[j.name] = lengths.of_joint(j.first, j.second, plan.length_scale);
+  std::map<std::string, double> of_motion;
   for (const scene::PrescribedMotion& m : scene.motions)
-    length_of[m.name] = lengths.of_joint({}, m.at, plan.length_scale);
-  for (JointPlan& j : plan.joints) {
-    const auto known = length_of.find(j.name);
-    j.length = known == length_of.end() ? plan.length_scale : known->second;
+    of_motion[m.name] = lengths.of_joint({}, m.at, plan.length_scale);
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {  // those of the scene come first, one for one
+    if (j < scene.joints.size())
+      plan.joints[j].length = lengths.of_joint(scene.joints[j].first, scene.joints[j].second, plan.length_scale);
+    else
+      plan.joints[j].length = of_motion.at(plan.joints[j].name);
   }
 }
 

@@ -72,7 +72,7 @@ std::string describe(const SceneLinkage& s, const LinkComponent& c, Eigen::Index
 
 std::vector<std::string> find_massless(const SceneLinkage& s) {
   std::vector<std::string> texts;
-  for (const LinkComponent& c : s.linkage.solve())
+  for (const LinkComponent& c : s.linkage.solve(MotionsOf::all))
     for (Eigen::Index k = 0; k < c.motions.cols() && texts.size() < told; ++k)
       texts.push_back("no mass or inertia resists a motion: " + describe(s, c, k, " can ") +
                       "; give it inertia or hold it");
@@ -91,7 +91,7 @@ std::vector<std::string> names_in(const SceneLinkage& s, const LinkComponent& c)
 
 std::vector<std::string> find_free(const SceneLinkage& s) {
   std::vector<std::string> texts;
-  for (const LinkComponent& c : s.linkage.solve()) {
+  for (const LinkComponent& c : s.linkage.solve(MotionsOf::all)) {
     if (!c.reaches_ground && texts.size() < told)
       texts.push_back("in statics nothing holds " + listed(names_in(s, c)) + ": nothing joins it to the ground");
     for (Eigen::Index k = 0; c.reaches_ground && k < c.motions.cols() && texts.size() < told; ++k)
@@ -152,7 +152,7 @@ int joint_that_locks(const Linkage& linkage, const std::vector<int>& locked) {
   for (const int e : locked) {
     if (lanes::dot(linkage.edges()[at(e)].axis, linkage.edges()[at(e)].axis) == 0.0) continue;
     std::size_t still_locked = 0;
-    for (const LinkComponent& c : linkage.solve(e)) {
+    for (const LinkComponent& c : linkage.solve(MotionsOf::all, e)) {
       if (!c.is_rank_known) return -1;
       for (const int other : locked_joints(linkage, c))
         still_locked += other != e && std::find(locked.begin(), locked.end(), other) != locked.end() ? 1 : 0;
@@ -185,7 +185,7 @@ std::string locked_text(const SceneLinkage& s, const LinkComponent& c, const std
 
 std::vector<std::string> find_locked(const SceneLinkage& s) {
   std::vector<std::string> texts;
-  for (const LinkComponent& c : s.linkage.solve()) {
+  for (const LinkComponent& c : s.linkage.solve(MotionsOf::loops)) {
     if (c.motions.rows() == 0 || c.closing_rows == 0 || texts.size() == told) continue;
     const std::vector<int> locked = locked_joints(s.linkage, c);
     if (locked.size() > 1) texts.push_back(locked_text(s, c, locked));
@@ -204,8 +204,9 @@ std::vector<std::string> undriven_motions(const scene::Scene& scene, const Plan&
   };
   const std::string asked = std::string(analysis.title) + " takes a motion that drives prescribe completely, but ";
   const scene::Poses poses(scene);
-  const SceneLinkage driven(scene, poses, {.drives_hold = true});  // in space: what the plan leaves out could move
-  for (const LinkComponent& c : driven.linkage.solve()) {
+  // In space: what the plan leaves out could move.
+  const SceneLinkage driven(scene, poses, empty_linkage(scene, poses), {.drives_hold = true});
+  for (const LinkComponent& c : driven.linkage.solve(MotionsOf::all)) {
     if (!c.reaches_ground) add(asked + "nothing joins " + listed(names_in(driven, c)) + " to the ground");
     for (Eigen::Index k = 0; c.reaches_ground && k < c.motions.cols(); ++k)
       add(asked + describe(driven, c, k, " can still ") + "; drive that");
@@ -226,18 +227,21 @@ int Mobility::degrees_of_freedom() const {
 
 void Builder::find_mobility() {
   Mobility& m = plan.mobility;
-  const SceneLinkage rigid(scene, poses, {});
+  const Linkage empty = empty_linkage(scene, poses);
+  const SceneLinkage rigid(scene, poses, empty, {});
   std::map<std::string, int> drives;
   for (const scene::Joint& j : scene.joints)
     if (!j.drives.empty()) drives[j.name] = static_cast<int>(j.drives.size());
-  for (const LinkComponent& c : rigid.linkage.solve()) m.parts.push_back(part_of(rigid, c, drives));
+  for (const LinkComponent& c : rigid.linkage.solve(MotionsOf::none)) m.parts.push_back(part_of(rigid, c, drives));
   if (plan.is_dynamic) {
-    m.locked = find_locked(SceneLinkage(scene, poses, {.beams_are_rigid = false}));
-    SceneLinkage massless(scene, poses, {.beams_are_rigid = false, .drives_hold = true, .mass_holds = true});
+    m.locked = find_locked(SceneLinkage(scene, poses, empty, {.beams_are_rigid = false}));
+    const bool turns = plan.unknowns.motions == Motions::spatial || plan.unknowns.motions == Motions::planar;
+    SceneLinkage massless(scene, poses, empty,
+                          {.beams_are_rigid = false, .drives_hold = true, .mass_holds = true, .nothing_turns = !turns});
     massless.restrict_to(plan.unknowns.motions, lanes::column(plan.axes, 2));
     m.massless = find_massless(massless);
   } else {
-    m.free = find_free(SceneLinkage(scene, poses, {.drives_hold = true, .stiffness_holds = true}));
+    m.free = find_free(SceneLinkage(scene, poses, empty, {.drives_hold = true, .stiffness_holds = true}));
   }
   for (const auto* list : {&m.locked, &m.free, &m.massless})
     plan.notes.insert(plan.notes.end(), list->begin(), list->end());

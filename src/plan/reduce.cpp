@@ -202,8 +202,12 @@ class InPlane final : public Motion {
       if (length_of(normal_in(pose[i]) - n) > small) return "it is twisted";
     }
     const Mat3<double> axes = axes_with(2, n);
-    for (const Mat6<double>* m : section)
-      if (couples(*m, axes)) return "its section couples bending in the plane with other strains";
+    for (std::size_t k = 0; k < section.size(); ++k) {
+      if (is_same(*section[k], known_section_[k]) && is_same(axes, known_axes_[k])) continue;
+      if (couples(*section[k], axes)) return "its section couples bending in the plane with other strains";
+      known_section_[k] = *section[k];
+      known_axes_[k] = axes;
+    }
     for (int g = 0; g < points; ++g) {
       const Vec3<double> kappa = angular(strain[g]);
       if (std::abs(lanes::dot(linear(strain[g]), n)) > small ||
@@ -219,8 +223,16 @@ class InPlane final : public Motion {
     return std::nullopt;
   }
 
+  template <int R, int C>
+  static bool is_same(const lanes::Mat<double, R, C>& a, const lanes::Mat<double, R, C>& b) {
+    return std::equal(std::begin(a.m), std::end(a.m), std::begin(b.m));
+  }
+
   Vec3<double> normal_;
   double height_;
+  /// The last section, of stiffness, mass and damping, that couples nothing, and its axes: most beams have it, too.
+  mutable std::array<Mat6<double>, 3> known_section_{Mat6<double>::zero(), Mat6<double>::zero(), Mat6<double>::zero()};
+  mutable std::array<Mat3<double>, 3> known_axes_{Mat3<double>::zero(), Mat3<double>::zero(), Mat3<double>::zero()};
 };
 
 /// All forces act at the origins of nodes, so that nothing rotates; optionally also along one line only.
@@ -398,6 +410,7 @@ void take(Builder& b, const Motion& motion) {
   u.component = motion.components();
   const Mat3<double> axes = motion.axes();
   bool is_plain = true;
+  u.basis.reserve(b.plan.nodes.size());
   for (const NodePlan& node : b.plan.nodes) {
     u.basis.push_back(lanes::transpose(node.pose.R) * axes);
     for (int i = 0; i < 9; ++i) is_plain &= u.basis.back().m[i] == (i % 4 == 0 ? 1.0 : 0.0);

@@ -212,22 +212,26 @@ void add_model(Builder& b) {
   Plan& plan = b.plan;
   ModelOn<G> model;
   const Reducer<G> reducer(b);
-  std::map<int, const JointPlan*> joint_of;
-  for (const JointPlan& j : plan.joints) joint_of[plan.directory[static_cast<std::size_t>(j.element)].index] = &j;
+  std::vector<const JointPlan*> joint_of(plan.joints.size());
+  for (const JointPlan& j : plan.joints)
+    joint_of.at(static_cast<std::size_t>(plan.directory[static_cast<std::size_t>(j.element)].index)) = &j;
   const auto fill = [&]<std::size_t... I>(std::index_sequence<I...>) {
     const auto one = [&]<class E, class R>(const std::vector<E>& from, std::vector<R>& to) {
-      if constexpr (!std::is_same_v<R, NoElement>)
+      if constexpr (!std::is_same_v<R, NoElement>) {
+        to.reserve(from.size());
         for (std::size_t i = 0; i < from.size(); ++i) {
           if constexpr (E::role == elements::Role::joint)
-            to.push_back(reducer.reduced(from[i], joint_of.at(static_cast<int>(i))->rows));
+            to.push_back(reducer.reduced(from[i], joint_of[i]->rows));
           else
             to.push_back(reducer.template reduced<R>(from[i]));
         }
+      }
     };
     (one(std::get<I>(plan.elements), std::get<I>(model.elements)), ...);
   };
   fill(std::make_index_sequence<std::tuple_size_v<ElementArrays>>{});
   for (const SignalPlan& s : plan.signals) model.readings.push_back(reducer.reduced(s.reading, {}));
+  model.nodes.reserve(plan.nodes.size());
   for (std::size_t n = 0; n < plan.nodes.size(); ++n) model.nodes.push_back(reducer.node(n));
   plan.model = std::move(model);
 }

@@ -53,6 +53,7 @@ std::unordered_map<std::string_view, const T*> by_name(const std::vector<T>& lis
 }  // namespace
 
 void Builder::add_signal_laws() {
+  if (scene.signals.empty()) return;
   const std::vector<std::optional<std::string>> units = scene::units_of_signals(scene);
   for (const std::size_t i : scene::order_of_signals(scene)) {
     const scene::Signal& s = scene.signals[i];
@@ -99,6 +100,7 @@ void Builder::read_effort(const scene::Joint& joint, const elements::Joint& made
 }
 
 void Builder::add_signals() {
+  if (scene.signals.empty()) return;
   const auto given = by_name(scene.signals);
   const auto joints = by_name(scene.joints);
   const auto springs = by_name(scene.springs);

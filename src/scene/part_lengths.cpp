@@ -18,16 +18,21 @@ double PartLengths::Extent::length() const {
   return std::max(diagonal, least);
 }
 
-PartLengths::PartLengths(const Scene& scene, const Poses& poses) {
-  for (const Node& n : scene.nodes) extents_[n.name].include(Vec3::zero());
-  for (const Body& b : scene.bodies) {
-    Extent& extent = extents_[b.name];
+PartLengths::PartLengths(const Scene& scene, const Poses& poses)
+    : poses_(poses),
+      first_body_(scene.nodes.size()),
+      first_beam_(first_body_ + scene.bodies.size()),
+      extents_(first_beam_ + scene.beams.size()) {
+  for (std::size_t i = 0; i < first_body_; ++i) extents_[i].include(Vec3::zero());
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& b = scene.bodies[i];
+    Extent& extent = extents_[first_body_ + i];
     extent.include(b.center_of_mass);
     const double trace = b.inertia(0, 0) + b.inertia(1, 1) + b.inertia(2, 2);
     if (b.mass > 0.0 && trace > 0.0) extent.least = std::sqrt(0.5 * trace / b.mass);
   }
   const auto hold = [this](const Attachment& a) {
-    if (const auto part = extents_.find(a.to); part != extents_.end()) part->second.include(a.offset.x);
+    if (const auto part = find(a.to)) extents_[*part].include(a.offset.x);
   };
   const auto hold_both = [&hold](const auto& list) {
     for (const auto& item : list) {
@@ -39,19 +44,40 @@ PartLengths::PartLengths(const Scene& scene, const Poses& poses) {
   hold_both(scene.springs);
   hold_both(scene.bushings);
   for (const PrescribedMotion& m : scene.motions) hold(m.at);
-  for (const Beam& b : scene.beams) {
-    hold({b.start, {Mat3::identity(), b.start_offset.value_or(Vec3::zero())}});
-    hold({b.end, {Mat3::identity(), b.end_offset.value_or(Vec3::zero())}});
+  for (std::size_t i = 0; i < scene.beams.size(); ++i) {
+    const Beam& b = scene.beams[i];
     const double length = poses.length_of(b);
-    for (const std::string& place : {b.start, b.end, b.name})
-      extents_[place].least = std::max(extents_[place].least, length);
+    extents_[first_beam_ + i].least = length;
+    const auto end_at = [&](const std::string& place, const std::optional<Vec3>& offset) {
+      const auto part = find(place);
+      if (!part) return;
+      extents_[*part].include(offset.value_or(Vec3::zero()));
+      extents_[*part].least = std::max(extents_[*part].least, length);
+    };
+    end_at(b.start, b.start_offset);
+    end_at(b.end, b.end_offset);
+  }
+}
+
+std::optional<std::size_t> PartLengths::find(std::string_view name) const {
+  const auto thing = poses_.find(name);
+  if (!thing) return std::nullopt;
+  switch (thing->kind) {
+    case ThingKind::node:
+      return thing->index;
+    case ThingKind::body:
+      return first_body_ + thing->index;
+    case ThingKind::beam:
+      return first_beam_ + thing->index;
+    default:
+      return std::nullopt;
   }
 }
 
 double PartLengths::of(const std::string& place) const {
-  auto part = extents_.find(place);
-  if (part == extents_.end()) part = extents_.find(place.substr(0, place.rfind('.')));
-  return part == extents_.end() ? 0.0 : part->second.length();
+  auto part = find(place);
+  if (!part) part = find(std::string_view(place).substr(0, place.rfind('.')));
+  return part ? extents_[*part].length() : 0.0;
 }
 
 double PartLengths::of_joint(const Attachment& first, const Attachment& second, double size) const {

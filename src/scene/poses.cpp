@@ -9,7 +9,7 @@ namespace {
 double norm(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }
 
 template <class List>
-void add_all(std::unordered_map<std::string, Thing>& things, const List& list, ThingKind kind) {
+void add_all(std::unordered_map<std::string_view, Thing>& things, const List& list, ThingKind kind) {
   for (std::size_t i = 0; i < list.size(); ++i)
     if (!list[i].name.empty()) things.try_emplace(list[i].name, Thing{kind, i});
 }
@@ -46,8 +46,10 @@ std::optional<Mat3> axes_from(int k, const Vec3& main, const Vec3& next) {
 
 namespace {
 
-std::unordered_map<std::string, Thing> things_of(const Scene& scene) {
-  std::unordered_map<std::string, Thing> things;
+std::unordered_map<std::string_view, Thing> things_of(const Scene& scene) {
+  std::unordered_map<std::string_view, Thing> things;
+  things.reserve(scene.nodes.size() + scene.bodies.size() + scene.beams.size() + scene.joints.size() +
+                 scene.springs.size());
   add_all(things, scene.frames, ThingKind::frame);
   add_all(things, scene.nodes, ThingKind::node);
   add_all(things, scene.bodies, ThingKind::body);
@@ -69,7 +71,7 @@ Poses::Poses(const Scene& scene)
       frames_(scene, [this](const std::string& name) { return frame(name); }) {}
 
 std::optional<Thing> Poses::find(std::string_view name) const {
-  const auto it = things_.find(std::string(name));
+  const auto it = things_.find(name);
   if (it == things_.end()) return std::nullopt;
   return it->second;
 }
@@ -102,18 +104,7 @@ std::optional<Frame> Poses::of(const Attachment& attachment) const {
 
 std::optional<Frame> Poses::of(std::string_view name) const {
   if (name.empty() || name == "ground") return Frame::identity();
-  if (const auto thing = find(name)) {
-    switch (thing->kind) {
-      case ThingKind::frame:
-        return frames_.pose(thing->index);
-      case ThingKind::node:
-        return chain(scene_.nodes[thing->index].placement);
-      case ThingKind::body:
-        return chain(scene_.bodies[thing->index].placement);
-      default:
-        return std::nullopt;
-    }
-  }
+  if (const auto thing = find(name)) return of(*thing);
   const std::size_t dot_at = name.rfind('.');
   if (dot_at == std::string_view::npos) return std::nullopt;
   const auto thing = find(name.substr(0, dot_at));
@@ -124,7 +115,22 @@ std::optional<Frame> Poses::of(std::string_view name) const {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), k);
   const long last = static_cast<long>(beam.elements) * beam.order;
   if (error != std::errc() || end != digits.data() + digits.size() || k < 0 || k > last) return std::nullopt;
-  return of_section(beam, static_cast<double>(k) / static_cast<double>(last));
+  const auto axis = axis_of(beam);
+  if (!axis) return std::nullopt;
+  return axis->at(static_cast<double>(k) / static_cast<double>(last));
+}
+
+std::optional<Frame> Poses::of(const Thing& thing) const {
+  switch (thing.kind) {
+    case ThingKind::frame:
+      return frames_.pose(thing.index);
+    case ThingKind::node:
+      return chain(scene_.nodes[thing.index].placement);
+    case ThingKind::body:
+      return chain(scene_.bodies[thing.index].placement);
+    default:
+      return std::nullopt;
+  }
 }
 
 double Poses::length_of(const Beam& beam) const {
@@ -135,30 +141,37 @@ double Poses::length_of(const Beam& beam) const {
               motion::transform(*start, beam.start_offset.value_or(Vec3::zero())));
 }
 
-std::optional<Frame> Poses::of_section(const Beam& beam, double fraction) const {
+std::optional<BeamAxis> Poses::axis_of(const Beam& beam) const {
   if (beam.start.find('.') != std::string::npos || beam.end.find('.') != std::string::npos)
     return std::nullopt;  // no beam ends at an inner node
   const auto start = of(std::string_view(beam.start));
   const auto frame = chain(Placement{Frame::identity(), beam.frame});
   if (!start || !frame) return std::nullopt;
+  BeamAxis axis;
+  axis.is_straight = beam.curve == BeamCurve::straight;
   const Vec3 origin = motion::transform(*start, beam.start_offset.value_or(Vec3::zero()));
-  const bool is_straight = beam.curve == BeamCurve::straight;
-  Vec3 span = frame->R * beam.tangent;
-  if (is_straight) {
+  axis.span = frame->R * beam.tangent;
+  axis.length = beam.length;
+  if (axis.is_straight) {
     const auto end = of(std::string_view(beam.end));
     if (!end) return std::nullopt;
-    span = motion::transform(*end, beam.end_offset.value_or(Vec3::zero())) - origin;
+    axis.span = motion::transform(*end, beam.end_offset.value_or(Vec3::zero())) - origin;
+    axis.length = norm(axis.span);
   }
-  const Vec3 side = norm(beam.axis_2) > 0.0 ? frame->R * beam.axis_2 : default_axis_2(span);
-  const auto axes = axes_from(1, span, side);
+  const Vec3 side = norm(beam.axis_2) > 0.0 ? frame->R * beam.axis_2 : default_axis_2(axis.span);
+  const auto axes = axes_from(1, axis.span, side);
   if (!axes) return std::nullopt;
-  if (is_straight) {
-    const Mat3 turn = motion::exp_so3(Vec3{{fraction * beam.twist, 0.0, 0.0}});
-    return Frame{*axes * turn, origin + fraction * span};
-  }
-  const double s = fraction * beam.length;
-  const Vec3 k = beam.curvature;
-  return motion::compose(Frame{*axes, origin}, motion::exp_se3(Vec6{{s, 0.0, 0.0, s * k[0], s * k[1], s * k[2]}}));
+  axis.start = {*axes, origin};
+  axis.twist = beam.twist;
+  axis.curvature = beam.curvature;
+  return axis;
+}
+
+Frame BeamAxis::at(double fraction) const {
+  if (is_straight) return {start.R * motion::exp_so3(Vec3{{fraction * twist, 0.0, 0.0}}), start.x + fraction * span};
+  const double s = fraction * length;
+  const Vec3& k = curvature;
+  return motion::compose(start, motion::exp_se3(Vec6{{s, 0.0, 0.0, s * k[0], s * k[1], s * k[2]}}));
 }
 
 }  // namespace bough::scene

@@ -113,18 +113,19 @@ void check_beam_axis(ProblemList& list, std::size_t i) {
     return list.add("beams", i, is_straight ? "end" : "curve", "", "the beam has length 0");
   if (!is_straight && is_zero(b.tangent))
     return list.add("beams", i, "curve/tangent", "0, 0, 0", "a tangent has a length other than 0");
-  if (!list.poses.of_section(b, 0.0))
+  const auto axis = list.poses.axis_of(b);
+  if (!axis)
     return list.add("beams", i, "axis_2", "",
                     "axis_2 runs along the beam and can not tell where section axis 2 points");
   check_turn_of_elements(list, i, length);
   if (is_straight) return;
-  const auto tip = list.poses.of_section(b, 1.0);
+  const Vec3 tip = axis->at(1.0).x;
   const auto end = list.poses.of(b.end);
-  if (!tip || !end) return;
-  const Vec3 gap = tip->x - motion::transform(*end, b.end_offset.value_or(Vec3::zero()));
+  if (!end) return;
+  const Vec3 gap = tip - motion::transform(*end, b.end_offset.value_or(Vec3::zero()));
   if (norm_of(gap) > 1e-6 * length)
     list.add("beams", i, "end", b.end, "the curved axis ends " + text_of(norm_of(gap)) + " m away from this end",
-             "it ends at (" + text_of(tip->x[0]) + ", " + text_of(tip->x[1]) + ", " + text_of(tip->x[2]) + ")");
+             "it ends at (" + text_of(tip[0]) + ", " + text_of(tip[1]) + ", " + text_of(tip[2]) + ")");
 }
 
 }  // namespace

@@ -114,13 +114,13 @@ TEST(ScenePoses, a_beam_without_axis_2_has_its_axis_3_nearest_to_the_vertical) {
   for (const Vec3& end : {Vec3{{3, 0, 0}}, Vec3{{0, -2, 0}}, Vec3{{1, 1, 1}}}) {
     s.nodes[1].placement.pose.x = end;
     const Poses poses(s);
-    const auto H = poses.of_section(s.beams[0], 0.0);
-    EXPECT_NEAR(H->R(2, 1), 0.0, 1e-15) << "axis 2 is horizontal";
-    EXPECT_GT(H->R(2, 2), 0.0) << "axis 3 points up";
+    const auto H = poses.axis_of(s.beams[0]);
+    EXPECT_NEAR(H->start.R(2, 1), 0.0, 1e-15) << "axis 2 is horizontal";
+    EXPECT_GT(H->start.R(2, 2), 0.0) << "axis 3 points up";
   }
   s.nodes[1].placement.pose.x = {{0, 0, 3}};
   const Poses poses(s);
-  expect_near(column(poses.of_section(s.beams[0], 0.0)->R, 1), {{0, 1, 0}}, 1e-15);
+  expect_near(column(poses.axis_of(s.beams[0])->at(0.0).R, 1), {{0, 1, 0}}, 1e-15);
 }
 
 TEST(ScenePoses, a_curved_beam_runs_along_its_circle) {
@@ -132,9 +132,9 @@ TEST(ScenePoses, a_curved_beam_runs_along_its_circle) {
   b.curvature = {{0, 0, 0.5}};
   b.length = pi;
   const Poses poses(s);
-  expect_near(poses.of_section(b, 1.0)->x, {{2, 2, 0}}, 1e-15);
-  expect_near(column(poses.of_section(b, 1.0)->R, 0), {{0, 1, 0}}, 1e-15);
-  expect_near(poses.of_section(b, 0.5)->x, {{2 * std::sin(pi / 4), 2 - 2 * std::cos(pi / 4), 0}}, 1e-15);
+  expect_near(poses.axis_of(b)->at(1.0).x, {{2, 2, 0}}, 1e-15);
+  expect_near(column(poses.axis_of(b)->at(1.0).R, 0), {{0, 1, 0}}, 1e-15);
+  expect_near(poses.axis_of(b)->at(0.5).x, {{2 * std::sin(pi / 4), 2 - 2 * std::cos(pi / 4), 0}}, 1e-15);
 }
 
 TEST(ScenePoses, circles_of_frames_end_without_a_pose) {

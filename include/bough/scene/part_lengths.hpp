@@ -1,14 +1,17 @@
 #pragma once
 /// How large the parts are that meet in a joint: what a gap in it is compared with.
+#include <optional>
 #include <string>
-#include <unordered_map>
+#include <string_view>
+#include <vector>
 
 #include "bough/scene/poses.hpp"
 #include "bough/scene/scene.hpp"
 
 namespace bough::scene {
 
-/// Lengths of nodes and bodies by what takes hold of them [m]. Built once from the whole scene. A length is the
+/// Lengths of nodes and bodies by what takes hold of them [m]. Built once from the whole scene; keeps a reference to
+/// the poses, which have to outlive it. A length is the
 /// largest of
 ///   the diagonal of the box, in the part's frame, around its centre of mass and all places where joints, springs,
 ///   bushings and beams take hold,
@@ -35,7 +38,12 @@ class PartLengths {
     double length() const;
   };
 
-  std::unordered_map<std::string, Extent> extents_;
+  /// Place in extents_; none for what is no node, body or beam.
+  std::optional<std::size_t> find(std::string_view name) const;
+
+  const Poses& poses_;
+  std::size_t first_body_, first_beam_;
+  std::vector<Extent> extents_;  ///< nodes, bodies and beams in the scene's order
 };
 
 }  // namespace bough::scene

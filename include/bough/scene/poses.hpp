@@ -28,6 +28,18 @@ struct Thing {
   std::size_t index;  ///< in the scene's list of its kind
 };
 
+/// The undeformed axis of a beam with the section axes along it, at the start in the ground.
+struct BeamAxis {
+  Frame start;          ///< section axes at the start, origin on the axis
+  double length = 0.0;  ///< [m]
+  /// Of a straight beam: from the start to the end [m], and the angle about axis 1 by which the sections turn over it
+  /// [rad]. Of a curved one: (k1, k2, k3) [1/m].
+  Vec3 span = Vec3::zero(), curvature = Vec3::zero();
+  double twist = 0.0;
+  bool is_straight = true;
+  Frame at(double fraction) const;  ///< at a fraction of the length [0, 1]
+};
+
 /// Names and initial poses of a scene. Keeps a reference to the scene, which has to outlive it and not change.
 class Poses {
  public:
@@ -40,6 +52,7 @@ class Poses {
   /// ground. "" and "ground" are the ground itself. None where there is no such part, or where a frame is its own
   /// ancestor.
   std::optional<Frame> of(std::string_view name) const;
+  std::optional<Frame> of(const Thing& thing) const;  ///< none for what is no frame, node or body
   std::optional<Frame> of(const Placement& placement) const;
   std::optional<Frame> of(const Attachment& attachment) const;
 
@@ -49,11 +62,10 @@ class Poses {
   bool is_moving(const std::string& frame_name) const;
   const FrameTree& frames() const { return frames_; }
 
-  /// Pose of the section axes of the undeformed beam at a fraction of its length [0, 1]: origin on the axis, axis 1
-  /// along it. Straight: from start to end, turned about axis 1 by fraction * twist. Curved: H(0) exp(s (1, 0, 0;
+  /// Axis of the undeformed beam: axis 1 of its sections runs along it. Straight: from start to end, turned about axis 1 by fraction * twist. Curved: H(0) exp(s (1, 0, 0;
   /// k)), s = fraction * length. Section axis 2 at the start is `axis_2` made perpendicular to axis 1; where axis_2
   /// is zero, see default_axis_2. Nothing where an end is not found, the length is 0 or axis_2 runs along axis 1.
-  std::optional<Frame> of_section(const Beam& beam, double fraction) const;
+  std::optional<BeamAxis> axis_of(const Beam& beam) const;
 
   /// Length of the undeformed axis [m]; 0 where an end is not found.
   double length_of(const Beam& beam) const;
@@ -62,7 +74,7 @@ class Poses {
   std::optional<Frame> chain(const Placement& placement) const;
 
   const Scene& scene_;
-  std::unordered_map<std::string, Thing> things_;
+  std::unordered_map<std::string_view, Thing> things_;  ///< by names that the scene holds
   FrameTree frames_;
 };
 
