@@ -35,6 +35,8 @@ struct Record {
   std::uint64_t begin, last, end;
   std::array<std::uint64_t, num_stages> stage;
   int thread;
+  std::uint64_t shared;  ///< in loops of the visit that threads share out
+  double parts;          ///< of these loops, times their ticks
 };
 
 struct Watched {
@@ -103,6 +105,8 @@ struct TimedWalker::State {
     Record& r = state.records[s];
     r.thread = thread_number();
     r.stage.fill(0);
+    r.shared = 0;
+    r.parts = 0.0;
     current = &r;
     r.begin = r.last = ticks();
     state.visit.run(state.visit.context, s);
@@ -146,6 +150,10 @@ struct TimedWalker::State {
       t.visit.push_back(static_cast<float>(r.end - r.begin));
       if (has_stages(work))
         for (int k = 0; k < num_stages; ++k) t.stage[at(k)].push_back(static_cast<float>(r.stage[at(k)]));
+      if (work == tree::Work::factor) {
+        t.shared.push_back(static_cast<float>(r.shared));
+        t.parts.push_back(r.shared > 0 ? static_cast<float>(r.parts / static_cast<double>(r.shared)) : 1.0f);
+      }
       if (!is_upward) continue;
       std::uint64_t ready = 0;
       const tree::Subdomain& s = tree.subdomains[at(v)];
@@ -162,6 +170,8 @@ struct TimedWalker::State {
     t.visit.reserve(most);
     t.wall.reserve(most / at(n));
     if (is_upward) t.wait.reserve(most);
+    if (work == tree::Work::factor)
+      for (auto* v : {&t.shared, &t.parts}) v->reserve(most);
     if (has_stages(work))
       for (auto& s : t.stage) s.reserve(most);
   }
@@ -177,6 +187,8 @@ struct TimedWalker::State {
     };
     halve(t.visit, at(n));
     halve(t.wait, at(n));
+    halve(t.shared, at(n));
+    halve(t.parts, at(n));
     halve(t.wall, 1);
     for (auto& s : t.stage) halve(s, at(n));
     t.stride *= 2;
@@ -192,11 +204,19 @@ struct TimedWalker::State {
   }
 
   void watch_chunks(std::int64_t count, std::int64_t grain, tree::Chunk given) {
+    const std::int64_t num_chunks = (count + grain - 1) / grain;
+    if (Record* r = is_walking ? current : nullptr; r != nullptr) {
+      const std::uint64_t begin = ticks();
+      inner.for_each_chunk(count, grain, given);
+      const std::uint64_t taken = ticks() - begin;
+      r->shared += taken;
+      r->parts += static_cast<double>(taken) * static_cast<double>(num_chunks * given.parts);
+      return;
+    }
     if (count <= 0 || is_walking || !is_on) {
       inner.for_each_chunk(count, grain, given);
       return;
     }
-    const std::int64_t num_chunks = (count + grain - 1) / grain;
     if (static_cast<std::int64_t>(chunk_records.size()) < num_chunks) chunk_records.resize(at(num_chunks));
     chunk = given;
     chunk_grain = grain;
@@ -285,6 +305,7 @@ WalkTimes TimedWalker::times() const {
     for (WorkTimes& t : out.trees.back().work) {
       scale(t.visit);
       scale(t.wait);
+      scale(t.shared);
       scale(t.wall);
       for (auto& stage : t.stage) scale(stage);
       t.wall_sum *= unit;

@@ -85,23 +85,29 @@ void solve_and_pack(int depth, const double* l, std::ptrdiff_t ldl, int n, doubl
   }
 }
 
-/// Updates columns [first, last), at most a chunk and all on one side of `full`, by pivots [begin, k).
-void catch_up(const FrontParts& v, int begin, int k, int first, int last) {
+/// Subtracts from rows [row, end) of columns [first, last), all on one side of `full`, the product of the pivots
+/// [from, to) with these columns' packed rows.
+void subtract_rows(const FrontParts& v, int from, int to, int first, int last, int row, int end, const double* packed) {
+  const int n = last - first, depth = to - from, top_end = first < v.full ? end : std::min(end, v.full);
+  const double* l = v.a + from * v.lda;
+  if (row < top_end)
+    tiles::subtract_packed(top_end - row, n, depth, l + row, v.lda, packed, v.top(first) + row,
+                           first < v.full ? v.lda : v.ldu);
+  row = std::max(row, top_end);
+  if (row < end)
+    tiles::subtract_packed(end - row, n, depth, l + row, v.lda, packed, v.bottom(first) + (row - v.full), v.lds);
+}
+
+/// U in rows [begin, k) of columns [first, last), at most a chunk and all on one side of `full`, and the update of rows
+/// [k, end) by it.
+void catch_up(const FrontParts& v, int begin, int k, int first, int last, int end) {
   using namespace tiles;
   alignas(64) double packed[deepest * chunk];
   const std::ptrdiff_t ld = first < v.full ? v.lda : v.ldu;
-  const int n = last - first;
   for (int from = begin; from < k; from += deepest) {
-    const int to = std::min(k, from + deepest), depth = to - from;
-    const double* l = v.a + from * v.lda;
-    double* top = v.top(first);
-    solve_and_pack(depth, l + from, v.lda, n, top + from, ld, packed);
-    if (first < v.full) {
-      subtract_packed(v.size - to, n, depth, l + to, v.lda, packed, top + to, ld);
-    } else {
-      subtract_packed(v.full - to, n, depth, l + to, v.lda, packed, top + to, ld);
-      subtract_packed(v.size - v.full, n, depth, l + v.full, v.lda, packed, v.bottom(first), v.lds);
-    }
+    const int to = std::min(k, from + deepest);
+    solve_and_pack(to - from, v.a + from * v.lda + from, v.lda, last - first, v.top(first) + from, ld, packed);
+    subtract_rows(v, from, to, first, last, to, end, packed);
   }
 }
 
@@ -123,7 +129,19 @@ struct General {
     swap_columns(parts, front, k, open);
     swap_rows(parts, front, k, open);  // both, so that a diagonal stays one
   }
-  void catch_up(int begin, int k, int first, int last) const { solve::catch_up(parts, begin, k, first, last); }
+  void catch_up(int begin, int k, int first, int last) const {
+    solve::catch_up(parts, begin, k, first, last, parts.size);
+  }
+  void prepare(int begin, int k, int first, int last) const { solve::catch_up(parts, begin, k, first, last, k); }
+  void update(int begin, int k, int first, int last, int row, int end) const {
+    alignas(64) double packed[tiles::deepest * tiles::chunk];
+    for (int from = begin; from < k; from += tiles::deepest) {
+      const int to = std::min(k, from + tiles::deepest);
+      tiles::pack_columns(to - from, last - first, parts.top(first) + from, first < parts.full ? parts.lda : parts.ldu,
+                          packed);
+      subtract_rows(parts, from, to, first, last, row, end, packed);
+    }
+  }
 };
 
 }  // namespace

@@ -98,6 +98,11 @@ void run_row_of_tiles(int m, int n, int k, const double* a, std::ptrdiff_t lda, 
 
 }  // namespace
 
+void pack_columns(int k, int n, const double* b, std::ptrdiff_t ldb, double* packed) {
+  for (int j = 0; j < (n + width - 1) / width * width; ++j)
+    for (int p = 0; p < k; ++p) group_of(packed, k, j / width)[p * width + j % width] = j < n ? b[p + j * ldb] : 0.0;
+}
+
 void subtract_packed(int m, int n, int k, const double* a, std::ptrdiff_t lda, const double* packed, double* c,
                      std::ptrdiff_t ldc, bool lower) {
   for (int i = 0; i < m; i += tile_rows) {
@@ -121,10 +126,7 @@ void subtract_product(int m, int n, int k, const double* a, int lda, const doubl
     const int depth = std::min(deepest, k - p0);
     for (int j0 = 0; j0 < n; j0 += chunk) {
       const int wide = std::min(chunk, n - j0);
-      for (int j = 0; j < (wide + width - 1) / width * width; ++j)
-        for (int p = 0; p < depth; ++p)
-          group_of(packed, depth, j / width)[p * width + j % width] =
-              j < wide ? b[p0 + p + static_cast<std::ptrdiff_t>(j0 + j) * ldb] : 0.0;
+      pack_columns(depth, wide, b + p0 + static_cast<std::ptrdiff_t>(j0) * ldb, ldb, packed);
       subtract_packed(m, wide, depth, a + static_cast<std::ptrdiff_t>(p0) * lda, lda, packed,
                       c + static_cast<std::ptrdiff_t>(j0) * ldc, ldc);
     }

@@ -111,21 +111,25 @@ void pack_scaled(const FrontParts& v, const double* d, int from, int to, int fir
 
 }  // namespace
 
-void catch_up_symmetric(const FrontParts& v, const double* d, int begin, int k, int first, int last) {
+namespace {
+
+/// Updates rows [row, end) of columns [first, last), at most a chunk and all on one side of `full`, by the pivots
+/// [begin, k), whose D is d. Entries above the diagonal may be overwritten.
+void catch_up(const FrontParts& v, const double* d, int begin, int k, int first, int last, int row, int end) {
   using namespace tiles;
+  row = std::max(row, first);
+  if (row >= end) return;
   alignas(64) double packed[deepest * chunk];
   const int n = last - first;
   for (int from = begin, to = begin; from < k; from = to) {
     to = std::min(k, from + deepest);
     if (to < k && d[2 * to - 1] != 0.0) --to;  // between two rows of a pivot
     pack_scaled(v, d, from, to, first, n, packed);
-    double* c = first < v.full ? v.top(first) + first : v.bottom(first) + (first - v.full);
-    subtract_packed(v.size - first, n, to - from, v.top(from) + first, v.lda, packed, c, first < v.full ? v.lda : v.lds,
-                    true);
+    double* c = first < v.full ? v.top(first) + row : v.bottom(first) + (row - v.full);
+    subtract_packed(end - row, n, to - from, v.top(from) + row, v.lda, packed, c, first < v.full ? v.lda : v.lds,
+                    row == first);
   }
 }
-
-namespace {
 
 /// The diagonal is preferred as a pivot; else it has two rows, of the candidate and of a partner.
 struct Symmetric {
@@ -147,7 +151,11 @@ struct Symmetric {
   }
   void exchange(int k, int open) const { swap_unknowns(parts, front, k, open); }
   void catch_up(int begin, int k, int first, int last) const {
-    catch_up_symmetric(parts, front.d, begin, k, first, last);
+    solve::catch_up(parts, front.d, begin, k, first, last, first, parts.size);
+  }
+  void prepare(int, int, int, int) const {}
+  void update(int begin, int k, int first, int last, int row, int end) const {
+    solve::catch_up(parts, front.d, begin, k, first, last, row, end);
   }
 };
 

@@ -158,6 +158,9 @@ inline double* group_of(double* packed, int k, int group) {
   return packed + static_cast<std::ptrdiff_t>(group) * k * width;
 }
 
+/// Packs k rows of n columns of b, the groups filled up with zeros.
+void pack_columns(int k, int n, const double* b, std::ptrdiff_t ldb, double* packed);
+
 /// c -= a b with b packed (k rows; groups of `width` columns filled up with zeros). c: m x n, a: m x k.
 /// `lower`: only entries (i, j) with i >= j are needed; others may be overwritten.
 void subtract_packed(int m, int n, int k, const double* a, std::ptrdiff_t lda, const double* packed, double* c,

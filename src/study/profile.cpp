@@ -50,6 +50,7 @@ std::vector<double> medians(const std::vector<float>& samples, std::size_t n) {
 struct VisitMedians {
   std::array<std::vector<double>, schedule::num_works> seconds;
   std::array<std::vector<double>, schedule::num_stages> stage;  ///< of factorizations
+  std::vector<double> shared, parts;                            ///< of factorizations: see VisitTimes
   std::vector<double> wait;
   std::vector<double> evaluate;  ///< in walks that condense right-hand sides, or else in factorizations
   std::vector<double> move;      ///< of nodes, in back-substitutions
@@ -67,6 +68,8 @@ VisitMedians find_medians(const WalkTimes& times, std::size_t n) {
   VisitMedians m;
   for (auto& s : m.seconds) s.assign(n, 0.0);
   for (auto& s : m.stage) s.assign(n, 0.0);
+  m.shared.assign(n, 0.0);
+  m.parts.assign(n, 1.0);
   m.wait.assign(n, 0.0);
   m.evaluate.assign(n, 0.0);
   m.move.assign(n, 0.0);
@@ -74,6 +77,11 @@ VisitMedians find_medians(const WalkTimes& times, std::size_t n) {
     for (Work w : walks) m.seconds[of(w)] = medians(t->work[of(w)].visit, n);
     for (std::size_t k = 0; k < m.stage.size(); ++k) m.stage[k] = medians(t->work[of(Work::factor)].stage[k], n);
     m.wait = medians(t->work[of(Work::factor)].wait, n);
+    if (!t->work[of(Work::factor)].shared.empty()) {
+      m.shared = medians(t->work[of(Work::factor)].shared, n);
+      m.parts = medians(t->work[of(Work::factor)].parts, n);
+      for (std::size_t v = 0; v < n; ++v) m.shared[v] = std::min(m.shared[v], m.seconds[of(Work::factor)][v]);
+    }
     const schedule::WorkTimes& up = t->work[of(Work::forward)];
     m.evaluate = up.walks > 0 ? medians(up.stage[of(Stage::evaluate)], n) : m.stage[of(Stage::evaluate)];
     if (t->work[of(Work::backward)].walks > 0) {
@@ -265,8 +273,10 @@ void predict_threads(const Found& found, const VisitMedians& m, const WatchedRun
   static constexpr const char* names[] = {"factor", "forward", "backward", "residual"};
   for (std::size_t w = 0; w < std::size(walks); ++w) {
     const auto direction = walks[w] == Work::backward ? Direction::down : Direction::up;
+    VisitTimes times(m.seconds[of(walks[w])]);
+    if (walks[w] == Work::factor) times = {times.seconds, m.shared, m.parts};
     records::WalkProfile walk =
-        simulate_walk(found.shapes.walk, m.seconds[of(walks[w])], direction, threads, grain,
+        simulate_walk(found.shapes.walk, times, direction, threads, grain,
                       walk_bytes(walks[w], out, found.options.symmetry != solve::Symmetry::general), rates);
     if (walk.total == 0.0) continue;  // solutions are not checked
     walk.work = names[w];

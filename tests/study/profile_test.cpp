@@ -131,6 +131,16 @@ TEST(ProfileSchedule, of_a_tree_made_by_hand_takes_as_long_as_counted_on_paper) 
   EXPECT_EQ(p.memory_seconds, (std::vector<double>{7.0, 5.0, 5.0, 5.0}));
 }
 
+TEST(ProfileSchedule, idle_threads_share_the_loops_of_a_visit) {
+  const tree::Tree walk = make_tree_by_hand();
+  // 1.5 s of the root's 2 s can be divided into three parts. Everything else takes until 6 s on two threads (above) and
+  // until 4 s on three.
+  const study::VisitTimes times({4.0, 3.0, 2.0, 1.0, 2.0}, {0.0, 0.0, 0.0, 0.0, 1.5}, {1.0, 1.0, 1.0, 1.0, 3.0});
+  EXPECT_DOUBLE_EQ(study::critical_path(walk, times), 5.0);
+  EXPECT_EQ(study::eval_walks(walk, times, Direction::up, {1, 2, 3, 8}, 0.0),
+            (std::vector<double>{12.0, 7.25, 5.0, 5.0}));
+}
+
 TEST(ReadRate, never_falls_with_threads_and_is_kept_beyond_those_of_the_machine) {
   for (std::size_t bytes : {std::size_t{0}, std::size_t{1} << 20}) {
     const std::vector<double> rates = study::measure_read_rates(bytes, {1, 2, 4, 8}, 2);

@@ -20,6 +20,8 @@ struct WorkTimes {
   std::vector<float> visit;                          ///< duration of each visit, by sample and visit
   std::vector<float> wait;                           ///< upward walks: from the end of its last child until its start
   std::array<std::vector<float>, num_stages> stage;  ///< parts of the visits: factor, forward, backward
+  std::vector<float> shared;                         ///< factor: seconds of a visit in loops that threads share out
+  std::vector<float> parts;                          ///< factor: into how many parts, on average over these seconds
   std::vector<float> wall;                           ///< duration of the whole walk, by sample
   double wall_sum = 0.0;                             ///< over all walks
 };

@@ -34,6 +34,7 @@ struct Chunk {
   void (*run)(void* context, std::int64_t begin, std::int64_t end) = nullptr;
   void* context = nullptr;
   Work work = Work::other;
+  int parts = 1;  ///< into which the caller would cut an item for several threads: for timings
 };
 
 /// The three ways to walk a tree. `up` visits every child before its parent, `down` every parent before its children.
@@ -60,9 +61,9 @@ Visit make_visit(Body& body, Work work = Work::other) {
 
 /// A chunk that calls `body(begin, end)`; body must outlive the call.
 template <class Body>
-Chunk make_chunk(Body& body, Work work = Work::other) {
+Chunk make_chunk(Body& body, Work work = Work::other, int parts = 1) {
   return {[](void* context, std::int64_t begin, std::int64_t end) { (*static_cast<Body*>(context))(begin, end); },
-          &body, work};
+          &body, work, parts};
 }
 
 }  // namespace bough::tree
