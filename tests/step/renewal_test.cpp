@@ -97,5 +97,22 @@ TEST(StepCost, is_lower_in_a_plane) {
   EXPECT_LT(a.update, 0.5 * b.update);
 }
 
+/// A small lattice is visited by one thread, and its leaves are not alike: nothing is gained where it is cut.
+TEST(Tree, is_one_subdomain_where_cuts_only_add_interfaces) {
+  const auto count = [](scene::Scene s, const std::vector<std::string>& without) {
+    s.without.insert(s.without.end(), without.begin(), without.end());
+    return test::Rig(s).system.linear().tree().num_subdomains();
+  };
+  scene::Scene lattice = test::make_lattice(scene::AnalysisKind::dynamics);
+  EXPECT_EQ(count(lattice, {}), 1);
+  EXPECT_GT(count(lattice, {"small"}), 1) << "several threads share it";
+  EXPECT_GT(count(test::make_chain(64), {"planar"}), 8) << "its leaves are alike";
+  lattice.solver.form = scene::SolverForm::hybrid;
+  EXPECT_GT(count(lattice, {}), 1) << "the form is about interfaces";
+  lattice.solver.form = scene::SolverForm::local;
+  lattice.solver.depth = 2;
+  EXPECT_GT(count(lattice, {}), 1) << "a depth is given";
+}
+
 }  // namespace
 }  // namespace bough::step
