@@ -1,72 +1,19 @@
 #pragma once
-/// Registers, and the product of packed panels, used by the dense kernels. Internal to solve.
-///
-/// Products are fused (rounded once) if the instruction set supports it, in vectors as well as in remaining scalars, so
-/// the bits of an entry do not depend on its position in a tile. All loops ascend.
+/// Operations on columns, and the product of packed panels, used by the dense kernels. All loops ascend. Internal to
+/// solve.
 #include <cstddef>
 #include <cstring>
-#if defined(__FMA__) || defined(__AVX512F__)
-#include <immintrin.h>
-#endif
+
+#include "registers.hpp"
 
 namespace bough::solve::tiles {
 
-#if defined(__AVX512F__)
-constexpr int width = 8;
-#elif defined(__AVX__)
-constexpr int width = 4;
-#else
-constexpr int width = 2;
-#endif
-typedef double Lanes __attribute__((vector_size(width * sizeof(double))));
+using namespace registers;
 
 constexpr int tile_registers = 3;                  ///< height of a tile in registers
 constexpr int tile_rows = tile_registers * width;  ///< by `width` columns
 constexpr int deepest = 96;                        ///< pivots in one update
 constexpr int chunk = 96;                          ///< columns of one update: a multiple of every width
-
-inline Lanes load(const double* p) {
-  Lanes v;
-  std::memcpy(&v, p, sizeof v);
-  return v;
-}
-inline void store(double* p, const Lanes& v) { std::memcpy(p, &v, sizeof v); }
-inline Lanes all(double x) { return Lanes{} + x; }
-
-#if defined(__AVX512F__)
-inline Lanes add_product(const Lanes& a, const Lanes& b, const Lanes& c) {
-  return Lanes(_mm512_fmadd_pd(__m512d(a), __m512d(b), __m512d(c)));
-}
-inline Lanes take_product(const Lanes& a, const Lanes& b, const Lanes& c) {
-  return Lanes(_mm512_fnmadd_pd(__m512d(a), __m512d(b), __m512d(c)));
-}
-#elif defined(__FMA__)
-inline Lanes add_product(const Lanes& a, const Lanes& b, const Lanes& c) {
-  return Lanes(_mm256_fmadd_pd(__m256d(a), __m256d(b), __m256d(c)));
-}
-inline Lanes take_product(const Lanes& a, const Lanes& b, const Lanes& c) {
-  return Lanes(_mm256_fnmadd_pd(__m256d(a), __m256d(b), __m256d(c)));
-}
-#else
-inline Lanes add_product(const Lanes& a, const Lanes& b, const Lanes& c) { return c + a * b; }
-inline Lanes take_product(const Lanes& a, const Lanes& b, const Lanes& c) { return c - a * b; }
-#endif
-/// c - a b.
-inline double take_product(double a, double b, double c) {
-#if defined(__FMA__) || defined(__AVX512F__)
-  return __builtin_fma(-a, b, c);
-#else
-  return c - a * b;
-#endif
-}
-/// c + a b.
-inline double add_product(double a, double b, double c) {
-#if defined(__FMA__) || defined(__AVX512F__)
-  return __builtin_fma(a, b, c);
-#else
-  return c + a * b;
-#endif
-}
 
 /// c[0, n) -= l[0, n) u.
 inline void take_column(int n, const double* l, double u, double* c) {

@@ -18,7 +18,7 @@ using namespace packs;
 /// U = L^-1 of C columns, the K x K triangle of L at `l`, unit.
 template <int K, int C>
 inline void update_head(const double* l, std::ptrdiff_t ld, double* head, std::ptrdiff_t step) {
-  Real u[C][K];
+  Lanes u[C][K];
 #pragma GCC unroll 8
   for (int j = 0; j < C; ++j)
 #pragma GCC unroll 8
@@ -27,9 +27,9 @@ inline void update_head(const double* l, std::ptrdiff_t ld, double* head, std::p
   for (int p = 0; p + 1 < K; ++p)
 #pragma GCC unroll 8
     for (int i = p + 1; i < K; ++i) {
-      const Real factor = load(l + p * ld + i * wide);
+      const Lanes factor = load(l + p * ld + i * wide);
 #pragma GCC unroll 8
-      for (int j = 0; j < C; ++j) u[j][i] = minus_product(u[j][i], factor, u[j][p]);
+      for (int j = 0; j < C; ++j) u[j][i] = take_product(factor, u[j][p], u[j][i]);
     }
 #pragma GCC unroll 8
   for (int j = 0; j < C; ++j)
@@ -117,20 +117,20 @@ namespace {
 /// y_k -= sum_{p<k} l_kp y_p for K rows.
 template <int K>
 inline void forward_triangle(const double* l, std::ptrdiff_t ld, double* v) {
-  Real y[K];
+  Lanes y[K];
   for (int k = 0; k < K; ++k) y[k] = load(v + k * wide);
   for (int k = 0; k < K; ++k)
-    for (int i = k + 1; i < K; ++i) y[i] = minus_product(y[i], load(l + k * ld + i * wide), y[k]);
+    for (int i = k + 1; i < K; ++i) y[i] = take_product(load(l + k * ld + i * wide), y[k], y[i]);
   for (int k = 1; k < K; ++k) store(v + k * wide, y[k]);
 }
 
 template <int K>
 inline void backward_triangle(const double* u, std::ptrdiff_t ld, double* v) {
-  Real x[K];
+  Lanes x[K];
   for (int k = 0; k < K; ++k) x[k] = load(v + k * wide);
   for (int k = K - 1; k >= 0; --k) {
     x[k] *= load(u + k * ld + k * wide);
-    for (int i = 0; i < k; ++i) x[i] = minus_product(x[i], load(u + k * ld + i * wide), x[k]);
+    for (int i = 0; i < k; ++i) x[i] = take_product(load(u + k * ld + i * wide), x[k], x[i]);
   }
   for (int k = 0; k < K; ++k) store(v + k * wide, x[k]);
 }
@@ -167,9 +167,9 @@ void backward_left_lanes(const double* factor, int n, int e, double* v) {
   const std::ptrdiff_t ld = static_cast<std::ptrdiff_t>(n) * wide;
   for (int l = 0; l < wide; l += width)
     for (int k = e - 1; k >= 0; --k) {
-      Real sum = {};
+      Lanes sum = {};
       for (int i = k + 1; i < n; ++i)
-        sum = minus_product(sum, load(factor + k * ld + i * wide + l), load(v + i * wide + l));
+        sum = take_product(load(factor + k * ld + i * wide + l), load(v + i * wide + l), sum);
       store(v + k * wide + l, sum);
     }
 }
@@ -180,7 +180,7 @@ namespace {
 template <int N, bool is_first>
 inline void move_packs(const double* from, double* to, std::ptrdiff_t step) {
   for (int l = 0; l < wide; l += width) {
-    Real pack[N];
+    Lanes pack[N];
 #pragma GCC unroll 8
     for (int i = 0; i < N; ++i) {
       pack[i] = load(from + i * wide + l);
@@ -290,13 +290,13 @@ double largest_asymmetry_lanes(const double* element, int size, const Place* pla
   if (is_its_transpose(element, size)) return 0.0;
   double largest = 0.0;
   for (int l = 0; l < wide; l += width) {
-    Real most = {};
+    Lanes most = {};
     for (int p = 0, i = 0; p < count; ++p)
       for (int r = places[p].row; r < places[p].row + places[p].length; ++r, ++i) {
         const double* row = element + static_cast<std::ptrdiff_t>(i) * size * wide + l;
         const double* column = element + static_cast<std::ptrdiff_t>(i) * wide + l;
         const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(size) * wide;
-        Real of_row = {};
+        Lanes of_row = {};
         for (int q = 0, j = 0; j < i; ++q)
           for (int c = places[q].row; c < places[q].row + places[q].length && j < i; ++c, ++j)
             of_row = greater_of(
@@ -312,7 +312,7 @@ double largest_asymmetry_lanes(const double* element, int size, const Place* pla
 }
 
 double largest_scaled(const double* v, const double* scale, int count) {
-  Real most = {};
+  Lanes most = {};
   for (int i = 0; i < count * wide; i += width) most = greater_of(most, magnitude(load(v + i) * load(scale + i)));
   double largest = 0.0;
   for (int l = 0; l < width; ++l) largest = larger(largest, most[l]);

@@ -1,97 +1,37 @@
 #pragma once
-/// Registers of lanes, and the product of packs, used by the kernels of eight fronts. Internal to solve.
+/// The product of packs, and parts of eliminations, used by the kernels of eight fronts. Internal to solve.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <type_traits>
 
-#include "bough/lanes/pack.hpp"
 #include "lane_kernels.hpp"
 #include "lane_plan.hpp"
+#include "registers.hpp"
 #include "transfers.hpp"
 
 namespace bough::solve {
 
 namespace packs {
 
+using namespace registers;
+
 constexpr int wide = lanes_wide;
-constexpr int width =
-    std::min(lanes::register_doubles, wide);  ///< lanes in a register; a pack is processed register by register
-
-#if defined(__SSE2__)
-typedef double Real __attribute__((vector_size(width * sizeof(double))));
-typedef long long Flag __attribute__((vector_size(width * sizeof(double))));
-#else
-#error "bough needs the vector extensions of GCC or Clang on a machine with SSE2"
-#endif
-
-inline Real load(const double* p) {
-  Real v;
-  std::memcpy(&v, p, sizeof v);
-  return v;
-}
-inline void store(double* p, const Real& v) { std::memcpy(p, &v, sizeof v); }
-
-/// c - a b, rounded once if the instruction set supports it, as the products of dense_tiles.hpp. Otherwise std::fma
-/// would be a function call for every number.
-inline Real minus_product(const Real& c, const Real& a, const Real& b) {
-#if defined(__AVX512F__)
-  return Real(_mm512_fnmadd_pd(__m512d(a), __m512d(b), __m512d(c)));
-#elif defined(__FMA__) && defined(__AVX__)
-  return Real(_mm256_fnmadd_pd(__m256d(a), __m256d(b), __m256d(c)));
-#else
-  return c - a * b;
-#endif
-}
-inline Real plus_product(const Real& c, const Real& a, const Real& b) {
-#if defined(__AVX512F__)
-  return Real(_mm512_fmadd_pd(__m512d(a), __m512d(b), __m512d(c)));
-#elif defined(__FMA__) && defined(__AVX__)
-  return Real(_mm256_fmadd_pd(__m256d(a), __m256d(b), __m256d(c)));
-#else
-  return c + a * b;
-#endif
-}
-
-constexpr long long infinite_bits = 0x7ff0000000000000LL;
-inline Flag bits_of(const Real& x) {
-  Flag bits;
-  std::memcpy(&bits, &x, sizeof bits);
-  return bits;
-}
-inline Real magnitude(const Real& x) {
-  Flag bits;
-  std::memcpy(&bits, &x, sizeof bits);
-  bits &= Flag{} + 0x7fffffffffffffffLL;
-  Real r;
-  std::memcpy(&r, &bits, sizeof r);
-  return r;
-}
-/// Greater magnitude, compared as bits, in which infinity and NaN are the largest.
-inline Real greater_of(const Real& a, const Real& b) {
-  Flag x, y;
-  std::memcpy(&x, &a, sizeof x);
-  std::memcpy(&y, &b, sizeof y);
-  const Flag f = x > y ? x : y;
-  Real r;
-  std::memcpy(&r, &f, sizeof r);
-  return r;
-}
+static_assert(wide % width == 0, "a pack is processed register by register");
 
 /// c(R x C) -= a(R x k) b(k x C)
 template <int R, int C>
 [[gnu::always_inline]] inline void subtract_tile(int k, const double* a, std::ptrdiff_t la, const double* b,
                                                  std::ptrdiff_t lb, double* c, std::ptrdiff_t lc) {
-  Real sum[C][R];
+  Lanes sum[C][R];
   for (int j = 0; j < C; ++j)
     for (int i = 0; i < R; ++i) sum[j][i] = load(c + j * lc + i * wide);
   for (int p = 0; p < k; ++p) {
-    Real l[R];
+    Lanes l[R];
     for (int i = 0; i < R; ++i) l[i] = load(a + p * la + i * wide);
     for (int j = 0; j < C; ++j) {
-      const Real u = load(b + p * wide + j * lb);
-      for (int i = 0; i < R; ++i) sum[j][i] = minus_product(sum[j][i], l[i], u);
+      const Lanes u = load(b + p * wide + j * lb);
+      for (int i = 0; i < R; ++i) sum[j][i] = take_product(l[i], u, sum[j][i]);
     }
   }
   for (int j = 0; j < C; ++j)
@@ -142,13 +82,13 @@ inline Front register_of(double* factor, double* schur, int n, int e, int lane, 
 template <int R, bool add>
 inline void accumulate(const double* a, std::ptrdiff_t row_step, std::ptrdiff_t column_step, int columns,
                        const double* x, double* y) {
-  Real sum[R];
+  Lanes sum[R];
   for (int i = 0; i < R; ++i) sum[i] = load(y + i * wide);
   for (int j = 0; j < columns; ++j) {
-    const Real xj = load(x + j * wide);
+    const Lanes xj = load(x + j * wide);
     for (int i = 0; i < R; ++i) {
-      const Real entry = load(a + i * row_step + j * column_step);
-      sum[i] = add ? plus_product(sum[i], entry, xj) : minus_product(sum[i], entry, xj);
+      const Lanes entry = load(a + i * row_step + j * column_step);
+      sum[i] = add ? add_product(entry, xj, sum[i]) : take_product(entry, xj, sum[i]);
     }
   }
   for (int i = 0; i < R; ++i) store(y + i * wide, sum[i]);
@@ -197,7 +137,7 @@ inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale,
   const std::ptrdiff_t ld = f.ld();
   double* block = f.left + k0 * ld + k0 * wide;
   Flag good = ~Flag{};
-  Real a[K][K];
+  Lanes a[K][K];
 #pragma GCC unroll 8
   for (int j = 0; j < K; ++j)
 #pragma GCC unroll 8
@@ -208,12 +148,12 @@ inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale,
   for (int k = 0; k < K; ++k) {
     // Compared as bits: a NaN or infinity on either side rejects without a trap. The pivot is compared with its column
     // in parallel with the division, which would otherwise wait for the result.
-    const Real size = magnitude(a[k][k] * load(row_scale + (k0 + k) * wide));
-    const Real least = rule.least * load(inverse_column_scale + (k0 + k) * wide);
+    const Lanes size = magnitude(a[k][k] * load(row_scale + (k0 + k) * wide));
+    const Lanes least = rule.least * load(inverse_column_scale + (k0 + k) * wide);
     const Flag divides = (bits_of(size) >= bits_of(least)) & (bits_of(size) < Flag{} + infinite_bits);
     good &= divides;
-    const Real inverse = 1.0 / (divides ? a[k][k] : Real{} + 1.0);
-    Real largest = {};
+    const Lanes inverse = 1.0 / (divides ? a[k][k] : Lanes{} + 1.0);
+    Lanes largest = {};
 #pragma GCC unroll 8
     for (int i = k + 1; i < K; ++i)
       largest = greater_of(largest, magnitude(a[k][i] * load(row_scale + (k0 + i) * wide)));
@@ -223,7 +163,7 @@ inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale,
 #pragma GCC unroll 8
     for (int j = k + 1; j < K; ++j)
 #pragma GCC unroll 8
-      for (int i = k + 1; i < K; ++i) a[j][i] = minus_product(a[j][i], a[k][i], a[j][k]);
+      for (int i = k + 1; i < K; ++i) a[j][i] = take_product(a[k][i], a[j][k], a[j][i]);
     a[k][k] = inverse;
   }
 #pragma GCC unroll 8
@@ -238,9 +178,9 @@ inline unsigned eliminate_block(const Front& f, int k0, const double* row_scale,
 /// L of R rows below the block, and the largest entry of each column, rows scaled. Symmetric: L D is written to
 /// `products`, row by row, six packs per row.
 template <int K, Symmetry symmetry, int R>
-inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld, const double* row_scale, Real* largest,
-                           [[maybe_unused]] double* products) {
-  Real l[K][R];
+inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld, const double* row_scale,
+                           Lanes* largest, [[maybe_unused]] double* products) {
+  Lanes l[K][R];
 #pragma GCC unroll 8
   for (int k = 0; k < K; ++k)
 #pragma GCC unroll 8
@@ -249,11 +189,11 @@ inline void eliminate_rows(const double* block, double* rows, std::ptrdiff_t ld,
   for (int k = 0; k < K; ++k) {
 #pragma GCC unroll 8
     for (int p = 0; p < k; ++p) {
-      const Real u = load(block + k * ld + p * wide);
+      const Lanes u = load(block + k * ld + p * wide);
 #pragma GCC unroll 8
-      for (int i = 0; i < R; ++i) l[k][i] = minus_product(l[k][i], l[p][i], u);
+      for (int i = 0; i < R; ++i) l[k][i] = take_product(l[p][i], u, l[k][i]);
     }
-    const Real inverse = load(block + k * ld + k * wide);
+    const Lanes inverse = load(block + k * ld + k * wide);
 #pragma GCC unroll 8
     for (int i = 0; i < R; ++i) {
       if constexpr (symmetry != Symmetry::general) store(products + (i * panel_width + k) * wide, l[k][i]);
@@ -273,8 +213,8 @@ inline unsigned eliminate_panel(const Front& f, int k0, const double* row_scale,
   unsigned refused = eliminate_block<K, symmetry>(f, k0, row_scale, inverse_column_scale, rule);
   if (refused != 0) neutralise(f, refused);
   const double* block = f.left + k0 * ld + k0 * wide;
-  Real largest[K];
-  for (int k = 0; k < K; ++k) largest[k] = Real{};
+  Lanes largest[K];
+  for (int k = 0; k < K; ++k) largest[k] = Lanes{};
   int i = k0 + K;
   double* left = f.left + k0 * ld;
   const auto rows = [&](int first, auto count) {

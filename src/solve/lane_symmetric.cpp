@@ -14,15 +14,15 @@ using namespace packs;
 template <int C>
 inline void subtract_corner(int k, const double* a, std::ptrdiff_t la, const double* b, std::ptrdiff_t lb, double* c,
                             std::ptrdiff_t lc) {
-  Real sum[C][C];
+  Lanes sum[C][C];
   for (int j = 0; j < C; ++j)
     for (int i = j; i < C; ++i) sum[j][i] = load(c + j * lc + i * wide);
   for (int p = 0; p < k; ++p) {
-    Real l[C];
+    Lanes l[C];
     for (int i = 0; i < C; ++i) l[i] = load(a + p * la + i * wide);
     for (int j = 0; j < C; ++j) {
-      const Real u = load(b + p * wide + j * lb);
-      for (int i = j; i < C; ++i) sum[j][i] = minus_product(sum[j][i], l[i], u);
+      const Lanes u = load(b + p * wide + j * lb);
+      for (int i = j; i < C; ++i) sum[j][i] = take_product(l[i], u, sum[j][i]);
     }
   }
   for (int j = 0; j < C; ++j)
@@ -68,10 +68,10 @@ unsigned eliminate_register(const Front& f, const double* scale, const double* i
 /// y = L^-T y for K rows, L unit.
 template <int K>
 inline void backward_triangle(const double* l, std::ptrdiff_t ld, double* v) {
-  Real x[K];
+  Lanes x[K];
   for (int k = 0; k < K; ++k) x[k] = load(v + k * wide);
   for (int k = K - 1; k >= 0; --k)
-    for (int i = 0; i < k; ++i) x[i] = minus_product(x[i], load(l + i * ld + k * wide), x[k]);
+    for (int i = 0; i < k; ++i) x[i] = take_product(load(l + i * ld + k * wide), x[k], x[i]);
   for (int k = 0; k + 1 < K; ++k) store(v + k * wide, x[k]);
 }
 
