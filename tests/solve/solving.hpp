@@ -52,7 +52,15 @@ struct Solved {
 /// Not a number is the same as itself.
 bool same_bits(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
-/// Largest over smallest singular value (floating-point traps masked: the decomposition overflows on purpose).
+/// Singular values, the largest first (floating-point traps masked: the decomposition overflows on purpose).
+Eigen::VectorXd singular_values(const Eigen::MatrixXd& A);
+/// Minimum-norm solution of a system whose rows may depend on each other, and the rank of its matrix; pivots below
+/// `threshold` times the largest count as 0.
+Eigen::VectorXd least_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double threshold);
+int rank_of(const Eigen::MatrixXd& A, double threshold);
+Eigen::VectorXd solve_with_full_pivoting(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+
+/// Largest over smallest singular value.
 double condition_of(const Eigen::MatrixXd& A);
 
 /// Column scales before they are rounded to powers of two, from the definition (dense).
