@@ -10,8 +10,8 @@ namespace bough::plan {
 namespace {
 
 constexpr double least_pivot = 1e-9;  ///< relative: rows have lengths of about 1
-constexpr int most_columns = 300;     ///< largest number of columns for which the motions of a component are computed:
-                                      ///< some 10 ms
+/// Largest number of freedoms whose motions are computed by a decomposition: some 10 ms.
+constexpr std::size_t most_columns = 300;
 constexpr std::size_t most_parts = 1000;
 
 using Matrix = Eigen::MatrixXd;
@@ -117,6 +117,47 @@ Twist LinkComponent::twist_of(int part, Eigen::Index motion) const {
 
 namespace {
 
+/// The freedoms that rows hold one after the other, because all others in the row are held already; the remaining
+/// freedoms, and the rows that still have entries in them. Linkages that hang on the ground like chains are taken apart
+/// by this, and only what is left needs a decomposition, whose work is cubic.
+struct Peeled {
+  std::vector<Eigen::Index> rows, columns;
+  Eigen::Index num_held = 0;
+};
+
+Peeled peel(const Matrix& A) {
+  std::vector<std::vector<Eigen::Index>> rows_of(static_cast<std::size_t>(A.cols()));
+  std::vector<int> open(static_cast<std::size_t>(A.rows()), 0);  // free freedoms of a row
+  const auto is_entry = [&](Eigen::Index i, Eigen::Index j) { return std::abs(A(i, j)) > least_pivot; };
+  for (Eigen::Index j = 0; j < A.cols(); ++j)
+    for (Eigen::Index i = 0; i < A.rows(); ++i)
+      if (is_entry(i, j)) {
+        rows_of[static_cast<std::size_t>(j)].push_back(i);
+        ++open[static_cast<std::size_t>(i)];
+      }
+  std::vector<char> is_held(rows_of.size(), 0);
+  std::vector<Eigen::Index> single;
+  for (Eigen::Index i = 0; i < A.rows(); ++i)
+    if (open[static_cast<std::size_t>(i)] == 1) single.push_back(i);
+  Peeled p;
+  while (!single.empty()) {
+    const Eigen::Index row = single.back();
+    single.pop_back();
+    if (open[static_cast<std::size_t>(row)] != 1) continue;
+    Eigen::Index column = 0;
+    while (is_held[static_cast<std::size_t>(column)] != 0 || !is_entry(row, column)) ++column;
+    is_held[static_cast<std::size_t>(column)] = 1;
+    ++p.num_held;
+    for (const Eigen::Index i : rows_of[static_cast<std::size_t>(column)])
+      if (--open[static_cast<std::size_t>(i)] == 1) single.push_back(i);
+  }
+  for (Eigen::Index j = 0; j < A.cols(); ++j)
+    if (is_held[static_cast<std::size_t>(j)] == 0) p.columns.push_back(j);
+  for (Eigen::Index i = 0; i < A.rows(); ++i)
+    if (open[static_cast<std::size_t>(i)] > 0) p.rows.push_back(i);
+  return p;
+}
+
 /// Computes the rank of the rows that close loops, and the remaining motions if they are wanted.
 void find_motions(LinkComponent& c, const SpanningTree& tree, const std::vector<LinkEdge>& edges,
                   const std::vector<std::pair<int, Twist>>& rows, bool is_wanted) {
@@ -131,10 +172,26 @@ void find_motions(LinkComponent& c, const SpanningTree& tree, const std::vector<
       add_way(tree, edge.first, rows[i].second, -1.0, line);
       A.row(static_cast<Eigen::Index>(i)) = line;
     }
-    Eigen::FullPivLU<Matrix> lu(A);
-    lu.setThreshold(least_pivot);
-    c.rank = static_cast<int>(lu.rank());
-    if (is_wanted) kernel = c.mobility() > 0 ? Matrix(lu.kernel()) : Matrix(c.freedoms, 0);
+    const Peeled left = peel(A);
+    if (left.columns.size() > most_columns) {
+      c.is_rank_known = false;
+      c.rank = std::min(c.freedoms, static_cast<int>(rows.size()));
+      return;
+    }
+    c.rank = static_cast<int>(left.num_held);
+    const bool is_free = left.rows.empty() || left.columns.empty();
+    Matrix of_left = Matrix::Identity(static_cast<Eigen::Index>(left.columns.size()),
+                                      static_cast<Eigen::Index>(left.columns.size()));
+    if (!is_free) {
+      Eigen::FullPivLU<Matrix> lu(A(left.rows, left.columns));
+      lu.setThreshold(least_pivot);
+      c.rank += static_cast<int>(lu.rank());
+      if (is_wanted) of_left = c.mobility() > 0 ? Matrix(lu.kernel()) : Matrix(of_left.rows(), 0);
+    }
+    if (is_wanted) {
+      kernel = Matrix::Zero(c.freedoms, c.mobility());
+      kernel(left.columns, Eigen::all) = of_left;
+    }
   }
   if (!is_wanted) return;
   c.motions = Matrix::Zero(6 * static_cast<Eigen::Index>(c.parts.size()), c.mobility());
@@ -182,7 +239,7 @@ std::vector<LinkComponent> Linkage::solve(MotionsOf wanted, int relaxed) const {
   }
   for (std::size_t k = 0; k < components.size(); ++k) {
     LinkComponent& c = components[k];
-    if (c.freedoms > most_columns || c.parts.size() > most_parts) {
+    if (static_cast<std::size_t>(c.freedoms) > most_columns || c.parts.size() > most_parts) {
       c.is_rank_known = c.closing_rows == 0;
       c.rank = std::min(c.freedoms, c.closing_rows);
       continue;
