@@ -18,7 +18,8 @@ struct ProfileOptions {
 
 /// Runs a scene for some steps with a timed walker, then again with 1, 2, 4 ... threads up to those of the machine.
 /// Rows, motion and summary are passed to `recorder`; they are bitwise those of simulate() with the same number of
-/// steps. Precondition: problems_in(scene) is empty, and the solver is hierarchical (cannot_profile is empty).
+/// steps and without the decision `small`, which would take one thread, and one sub-domain for a small structure with
+/// many loops. Precondition: problems_in(scene) is empty, and the solver is hierarchical (cannot_profile is empty).
 records::Profile profile(const scene::Scene& scene, const ProfileOptions& options, records::Recorder& recorder,
                          const run::ProgressCallback& progress = {});
 
