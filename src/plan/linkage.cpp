@@ -10,7 +10,7 @@ namespace bough::plan {
 namespace {
 
 constexpr double least_pivot = 1e-9;  ///< relative: rows have lengths of about 1
-/// Largest number of freedoms whose motions are computed by a decomposition: some 10 ms.
+/// Largest number of freedoms whose motions are computed by a decomposition.
 constexpr std::size_t most_columns = 300;
 constexpr std::size_t most_parts = 1000;
 
@@ -117,12 +117,11 @@ Twist LinkComponent::twist_of(int part, Eigen::Index motion) const {
 
 namespace {
 
-/// The freedoms that rows hold one after the other, because all others in the row are held already; the remaining
-/// freedoms, and the rows that still have entries in them. Linkages that hang on the ground like chains are taken apart
-/// by this, and only what is left needs a decomposition, whose work is cubic.
+/// What is left of a matrix without the freedoms (columns) that rows hold one after the other: a row in which one
+/// freedom is left holds it. This takes linkages apart that hang on the ground like chains, so that the decomposition,
+/// whose work is cubic, sees only loops of several freedoms.
 struct Peeled {
   std::vector<Eigen::Index> rows, columns;
-  Eigen::Index num_held = 0;
 };
 
 Peeled peel(const Matrix& A) {
@@ -147,7 +146,6 @@ Peeled peel(const Matrix& A) {
     Eigen::Index column = 0;
     while (is_held[static_cast<std::size_t>(column)] != 0 || !is_entry(row, column)) ++column;
     is_held[static_cast<std::size_t>(column)] = 1;
-    ++p.num_held;
     for (const Eigen::Index i : rows_of[static_cast<std::size_t>(column)])
       if (--open[static_cast<std::size_t>(i)] == 1) single.push_back(i);
   }
@@ -178,11 +176,10 @@ void find_motions(LinkComponent& c, const SpanningTree& tree, const std::vector<
       c.rank = std::min(c.freedoms, static_cast<int>(rows.size()));
       return;
     }
-    c.rank = static_cast<int>(left.num_held);
-    const bool is_free = left.rows.empty() || left.columns.empty();
+    c.rank = c.freedoms - static_cast<int>(left.columns.size());
     Matrix of_left = Matrix::Identity(static_cast<Eigen::Index>(left.columns.size()),
                                       static_cast<Eigen::Index>(left.columns.size()));
-    if (!is_free) {
+    if (!left.rows.empty()) {
       Eigen::FullPivLU<Matrix> lu(A(left.rows, left.columns));
       lu.setThreshold(least_pivot);
       c.rank += static_cast<int>(lu.rank());

@@ -252,7 +252,7 @@ struct TimedWalker::State {
   std::int64_t events_left_out = 0;
   bool is_on = true;
   bool keeps_events = false;
-  bool is_walking = false;  ///< chunks inside visits count as part of these visits and are not timed separately
+  bool is_walking = false;  ///< loops inside visits are part of these, which keep the sum of their times
   // State of the present walk.
   tree::Visit visit;
   tree::Chunk chunk;

@@ -107,7 +107,7 @@ void Hierarchical::State::check_element_symmetric(int group, int element) {
   if (found.element < 0 && Asymmetry::shows(difference)) found = {element, difference};
 }
 
-/// while_factoring: other visits may factor their fronts at the same time, and these are not read.
+/// while_factoring: other visits may be factoring their fronts, so only fronts of this one are prefetched.
 void Hierarchical::State::forward_group(int index, bool while_factoring) {
   const LaneGroup& group = lanes.groups[at(index)];
   if (group.in_lanes)

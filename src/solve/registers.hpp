@@ -1,5 +1,6 @@
 #pragma once
-/// A register of doubles, the width of the instruction set, for the kernels of one front and of eight. Internal to solve.
+/// A register of doubles, as wide as the instruction set has them, for the kernels of one front and of eight. Internal
+/// to solve.
 ///
 /// Products are fused (rounded once) if the instruction set supports it, in registers as well as in single numbers, so
 /// the bits of an entry do not depend on its position in a register.

@@ -23,8 +23,8 @@ void Hierarchical::State::forward_front(tree::FrontId f) {
 }
 
 /// Prefetches what the substitutions of a front on the scalar path read. Most fronts are small: without it a
-/// substitution waits for memory longer than it computes. Mostly the next front, and the one before it, are those that
-/// a thread comes to next on the way up and down.
+/// substitution waits for memory longer than it computes. Within a task, fronts are visited in order on the way up, and
+/// in reverse order on the way down.
 void Hierarchical::State::prefetch_front(tree::FrontId f) const {
   static constexpr std::int64_t most_packs = 256;
   const auto fetch = [](const void* first, std::int64_t doubles) {

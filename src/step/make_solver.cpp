@@ -19,8 +19,8 @@ std::unique_ptr<solve::AnySolver> make_monolithic(const plan::Plan& plan, const 
   return std::make_unique<solve::AnySolver>(solve::SparseOracle(plan.graph, tree, other, options));
 }
 
-/// Whether the elements close more loops than one for every 16 of them, as those of lattices do: edges - vertices + 1 of
-/// the graph of elements and the blocks that several of them hold.
+/// Whether the elements close more loops than one for every 16 of them, as those of lattices do: edges - vertices + 1
+/// of the graph of elements and the blocks that several of them hold.
 bool closes_many_loops(const blocks::BlockGraph& graph) {
   std::vector<int> holders(graph.block_size.size(), 0);
   for (int b : graph.element_blocks) ++holders[static_cast<std::size_t>(b)];
@@ -33,12 +33,17 @@ bool closes_many_loops(const blocks::BlockGraph& graph) {
 
 /// Sub-domains are tasks of several threads, or equal ones share lanes. Where one thread visits all, and leaves between
 /// many loops are not alike, they only add interfaces: one sub-domain takes 0.88 of the time of a step on a lattice of
-/// 8 x 8 nodes, 0.90 on 12 x 12, 0.95 on a tower crane's jib, 0.93 on a rotor. Other forms need the interfaces.
+/// 8 x 8 nodes, 0.90 on 12 x 12, 0.95 on a tower crane's jib, 0.93 on a rotor. Other forms, and sensors of
+/// interface forces, need the interfaces.
 tree::TreeOptions make_tree_options(const plan::Plan& plan, const scene::Solver& given) {
   tree::TreeOptions options;
   options.leaf_size = given.leaf_size;
   options.depth = given.depth;
-  const bool is_free = given.leaf_size == 0 && given.depth < 0 && given.form == scene::SolverForm::local;
+  const bool reads_interfaces = std::any_of(plan.sensors.begin(), plan.sensors.end(), [](const plan::SensorPlan& s) {
+    return s.sensor.kind == scene::SensorKind::interface_force;
+  });
+  const bool is_free =
+      given.leaf_size == 0 && given.depth < 0 && given.form == scene::SolverForm::local && !reads_interfaces;
   if (is_free && plan.took("small") && closes_many_loops(plan.graph)) options.depth = 0;
   options.in_lockstep = plan.took("lanes");
   return options;

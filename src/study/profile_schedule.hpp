@@ -25,8 +25,8 @@ double critical_path(const tree::Tree& walk, const VisitTimes& times);
 enum class Direction { up, down };
 
 /// Duration of one walk by greedy list scheduling, longest remaining path first, of the tasks that schedule::Threads
-/// makes: subtrees below `grain_flops` whole, all others visit by visit. Threads that are idle when a visit begins share
-/// its loops, as many as these have parts. Hand-over between threads costs nothing here. One thread: the sum.
+/// makes: subtrees below `grain_flops` whole, all others visit by visit. Threads that are idle when a visit begins take
+/// part in its loops, as many as these have parts. Hand-over between threads costs nothing here. One thread: the sum.
 double eval_walk(const tree::Tree& walk, const VisitTimes& times, Direction direction, int threads, double grain_flops);
 
 /// eval_walk for each of `threads` (ascending). More threads never take longer, since the additional ones may idle.

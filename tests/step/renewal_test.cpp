@@ -112,6 +112,9 @@ TEST(Tree, is_one_subdomain_where_cuts_only_add_interfaces) {
   lattice.solver.form = scene::SolverForm::local;
   lattice.solver.depth = 2;
   EXPECT_GT(count(lattice, {}), 1) << "a depth is given";
+  lattice.solver.depth = -1;
+  lattice.sensors.push_back({.name = "force", .kind = scene::SensorKind::interface_force, .subdomain = "0"});
+  EXPECT_GT(count(lattice, {}), 1) << "an interface is read";
 }
 
 }  // namespace

@@ -81,7 +81,8 @@ inline void expect_equal(const Rig& a, const Rig& b, double tolerance) {
     }
   const double h = b.state.step_size;  // 0 before the first step
   // Places are rounded in each step, and accelerations hold their increments dq / (beta h^2). What a step has left in
-  // the accelerations of stiff modes decays by the spectral radius in each of the following ones, of which there are 20.
+  // the accelerations of stiff modes decays by the spectral radius in each of the following ones, of which there are
+  // 20: 4.9 times the rounding of one step. HeldNodes.move_nothing_else_in_time differs by 2.0 to 3.4 times.
   const double radius = b.scene.analysis.spectral_radius;
   double steps = 0.0;
   for (int k = 0; k < 20; ++k) steps = 1.0 + radius * steps;

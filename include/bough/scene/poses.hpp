@@ -62,9 +62,10 @@ class Poses {
   bool is_moving(const std::string& frame_name) const;
   const FrameTree& frames() const { return frames_; }
 
-  /// Axis of the undeformed beam: axis 1 of its sections runs along it. Straight: from start to end, turned about axis 1 by fraction * twist. Curved: H(0) exp(s (1, 0, 0;
-  /// k)), s = fraction * length. Section axis 2 at the start is `axis_2` made perpendicular to axis 1; where axis_2
-  /// is zero, see default_axis_2. Nothing where an end is not found, the length is 0 or axis_2 runs along axis 1.
+  /// Axis of the undeformed beam: axis 1 of its sections runs along it. Straight: from start to end, turned about axis
+  /// 1 by fraction * twist. Curved: H(0) exp(s (1, 0, 0; k)), s = fraction * length. Section axis 2 at the start is
+  /// `axis_2` made perpendicular to axis 1; where axis_2 is zero, see default_axis_2. Nothing where an end is not
+  /// found, the length is 0 or axis_2 runs along axis 1.
   std::optional<BeamAxis> axis_of(const Beam& beam) const;
 
   /// Length of the undeformed axis [m]; 0 where an end is not found.

@@ -1,6 +1,6 @@
 #pragma once
-/// Times of the work on fronts [s], by which lanes and renewals of factorizations are decided. They are fitted to single
-/// factorizations and solutions of the scenes of data/ on one machine; on others only their ratios matter.
+/// Times of the work on fronts [s], by which lanes and renewals of factorizations are decided. They are fitted to
+/// single factorizations and solutions of the scenes of data/ on one machine; on others only their ratios matter.
 namespace bough::solve::front_cost {
 
 // Elimination of eight fronts in lockstep, of whatever number of lanes in use.
