@@ -5,45 +5,45 @@
 
 #include <vector>
 
-#include "../../src/solve/lane_registers.hpp"
 #include "../../src/solve/line_allocator.hpp"
+#include "../../src/solve/registers.hpp"
 #include "../support/side_by_side.hpp"
 
 namespace {
 
 using namespace bough::solve;
-using packs::load;
-using packs::Real;
+using registers::Lanes;
+using registers::load;
 
 using Data = std::vector<double, LineAllocator<double>>;
 
 /// Keeps only their total from being optimised away: sums with an address would be stored in memory every time.
 template <int sums>
-void keep(const Real (&sum)[sums]) {
-  Real all = {};
+void keep(const Lanes (&sum)[sums]) {
+  Lanes all = {};
 #pragma GCC unroll 24
   for (int i = 0; i < sums; ++i) all += sum[i];
   benchmark::DoNotOptimize(all);
 }
 
 /// As many sums as a tile of the kernels has, so that no operation waits for the previous one on the same sum.
-constexpr int many_sums = 3 * packs::width, rounds = 1024;
+constexpr int many_sums = 3 * registers::width, rounds = 1024;
 template <int sums>
 void multiply_and_add() {
-  Real sum[sums];
-  for (int i = 0; i < sums; ++i) sum[i] = Real{} + i;  // the compiler would merge equal sums
-  const Real factor = Real{} + 0.5, term = Real{} + 1.0;
+  Lanes sum[sums];
+  for (int i = 0; i < sums; ++i) sum[i] = Lanes{} + i;  // the compiler would merge equal sums
+  const Lanes factor = Lanes{} + 0.5, term = Lanes{} + 1.0;
   for (int k = 0; k < rounds; ++k)
 #pragma GCC unroll 24
-    for (int i = 0; i < sums; ++i) sum[i] = packs::plus_product(term, sum[i], factor);
+    for (int i = 0; i < sums; ++i) sum[i] = registers::add_product(sum[i], factor, term);
   keep(sum);
 }
 
 void read_all(const Data& data) {
-  Real sum[8] = {};
-  for (std::size_t i = 0; i < data.size(); i += 8 * packs::width)
+  Lanes sum[8] = {};
+  for (std::size_t i = 0; i < data.size(); i += 8 * registers::width)
 #pragma GCC unroll 8
-    for (std::size_t j = 0; j < 8; ++j) sum[j] += load(data.data() + i + j * packs::width);
+    for (std::size_t j = 0; j < 8; ++j) sum[j] += load(data.data() + i + j * registers::width);
   keep(sum);
 }
 
@@ -52,7 +52,7 @@ Data make_data(std::int64_t kibibytes) { return Data(static_cast<std::size_t>(ki
 void multiply_adds(benchmark::State& state) {
   for (auto _ : state) multiply_and_add<many_sums>();
   state.counters["flops"] =
-      benchmark::Counter(2.0 * packs::width * many_sums * rounds, benchmark::Counter::kIsIterationInvariantRate);
+      benchmark::Counter(2.0 * registers::width * many_sums * rounds, benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(multiply_adds);
 
