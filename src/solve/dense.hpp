@@ -37,6 +37,9 @@ struct FrontParts {
   double *a, *u, *s;
   std::ptrdiff_t lda, ldu, lds;
   int size, full;
+  FrontParts(double* a, std::ptrdiff_t lda, double* u, std::ptrdiff_t ldu, double* s, std::ptrdiff_t lds, int size,
+             int full)
+      : a(a), u(u), s(s), lda(lda), ldu(ldu), lds(lds), size(size), full(full) {}
   explicit FrontParts(const FrontMatrix& f)
       : a(f.a), u(f.u), s(f.s), lda(f.lda), ldu(f.ldu), lds(f.lds), size(f.size), full(f.full) {
     if (f.lda != 0) return;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "bough/lanes/transpose.hpp"
 #include "registers.hpp"
 
 namespace bough::solve::tiles {
@@ -23,44 +24,12 @@ inline void take_column(int n, const double* l, double u, double* c) {
   for (; i < n; ++i) c[i] = take_product(l[i], u, c[i]);
 }
 
-/// c[0, n) += a[0, n).
-inline void add_to(int n, const double* a, double* c) {
-  int i = 0;
-  for (; i + width <= n; i += width) store(c + i, load(c + i) + load(a + i));
-#if defined(__AVX512F__)
-  if (i < n) {
-    const auto rest = static_cast<__mmask8>((1u << (n - i)) - 1u);
-    const __m512d sum = _mm512_add_pd(_mm512_maskz_loadu_pd(rest, c + i), _mm512_maskz_loadu_pd(rest, a + i));
-    _mm512_mask_storeu_pd(c + i, rest, sum);
-  }
-#else
-  for (; i < n; ++i) c[i] += a[i];
-#endif
-}
-
-/// c[0, n) += scale[0, n) a[0, n) factor.
-inline void add_scaled(int n, const double* scale, const double* a, double factor, double* c) {
-  typedef double Four __attribute__((vector_size(32)));
-  typedef double Two __attribute__((vector_size(16)));
-  const auto add = [&](auto lanes, int i) {
-    decltype(lanes) s, v, sum;
-    std::memcpy(&s, scale + i, sizeof s);
-    std::memcpy(&v, a + i, sizeof v);
-    std::memcpy(&sum, c + i, sizeof sum);
-    sum += s * v * factor;
-    std::memcpy(c + i, &sum, sizeof sum);
-  };
-  int i = 0;
-  for (; i + 4 <= n; i += 4) add(Four{}, i);
-  for (; i + 2 <= n; i += 2) add(Two{}, i);
-  for (; i < n; ++i) c[i] += scale[i] * a[i] * factor;
-}
-
-/// The first n < width entries, zeros after them; and back.
+/// The first n <= width entries, zeros after them; and back.
 inline Lanes load_some(int n, const double* p) {
 #if defined(__AVX512F__)
   return Lanes(_mm512_maskz_loadu_pd(static_cast<__mmask8>((1u << n) - 1u), p));
 #else
+  if (n == width) return load(p);
   Lanes v = {};
   std::memcpy(&v, p, sizeof(double) * static_cast<std::size_t>(n));
   return v;
@@ -72,6 +41,40 @@ inline void store_some(int n, double* p, const Lanes& v) {
 #else
   std::memcpy(p, &v, sizeof(double) * static_cast<std::size_t>(n));
 #endif
+}
+
+/// c[0, n) += a[0, n).
+inline void add_to(int n, const double* a, double* c) {
+  int i = 0;
+  for (; i + width <= n; i += width) store(c + i, load(c + i) + load(a + i));
+  if constexpr (width == 8) {
+    if (i < n) store_some(n - i, c + i, load_some(n - i, c + i) + load_some(n - i, a + i));
+  } else {
+    for (; i < n; ++i) c[i] += a[i];
+  }
+}
+
+/// c_i += scale_i a_i factor for i in [0, n), n <= width; entries of a are `step` apart.
+inline void add_scaled(int n, const double* scale, const double* a, std::ptrdiff_t step, double factor, double* c) {
+  if (step == 1 && (width == 8 || n == width))
+    return store_some(n, c, load_some(n, c) + load_some(n, scale) * load_some(n, a) * factor);
+  for (int i = 0; i < n; ++i) c[i] += scale[i] * a[i * step] * factor;
+}
+
+/// c_ij += row_scale_i a_ij column_scale_j for a block of at most `width` rows and columns; rows of a and columns of c
+/// are contiguous.
+inline void add_transposed(int rows, int columns, const double* row_scale, const double* a, std::ptrdiff_t lda,
+                           const double* column_scale, double* c, std::ptrdiff_t ldc) {
+  Lanes square[width];
+#pragma GCC unroll 8
+  for (int i = 0; i < width; ++i) square[i] = i < rows ? load_some(columns, a + i * lda) : Lanes{};
+  lanes::detail::transpose_square(square);
+  const Lanes scale = load_some(rows, row_scale);
+#pragma GCC unroll 8
+  for (int j = 0; j < width; ++j) {
+    if (j == columns) return;
+    store_some(rows, c + j * ldc, load_some(rows, c + j * ldc) + scale * square[j] * column_scale[j]);
+  }
 }
 
 /// c + a b in the first n < width lanes of the products, c in the others: a and b at most n entries in memory.

@@ -34,7 +34,7 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   }
   vector_begin.assign(1, 0);
   index_begin.assign(1, 0);
-  own_begin.assign(1, 0);
+  row_begin.assign(1, 0);
   run_begin.assign(1, 0);
   for (tree::FrontId id = 0; id < tree.num_fronts(); ++id) {
     const tree::Front& f = front(id);
@@ -42,11 +42,17 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
     const std::int64_t size = in_lanes ? 0 : f.size();
     vector_begin.push_back(vector_begin.back() + vector_size(size));
     index_begin.push_back(index_begin.back() + (in_lanes ? 0 : 3 * f.num_eliminated));
-    own_begin.push_back(own_begin.back() + f.num_eliminated);
+    row_begin.push_back(row_begin.back() + f.size());
     if (!in_lanes) scalar_fronts.push_back(id);
     add_runs(graph, f);
     run_begin.push_back(static_cast<std::int64_t>(runs.size()));
   }
+  for (int e : tree.element_order)
+    for (int k = 0, from = 0; k < elements.num_blocks_of(e); ++k) {
+      const int length = graph.block_size[at(elements.blocks_of(e)[k])];
+      element_runs.push_back({from, tree.scatter[element_runs.size()], length});
+      from += length;
+    }
   size_factors();
   schur_places = plan_schur(tree, lanes.lane_front, is_symmetric());
   schur_pool.resize(at(schur_places.pool));
@@ -114,16 +120,14 @@ void Hierarchical::State::size_factors() {
   exceeds_caches = options.near_bytes > 0 ? bytes > at(options.near_bytes) : exceeds_share_of_caches(bytes);
 }
 
-/// Own unknowns of a front, and its boundary by runs of adjacent rows of the parent.
+/// Unknowns of the rows of a front, and its boundary by runs of adjacent rows of the parent.
 void Hierarchical::State::add_runs(const blocks::BlockGraph& graph, const tree::Front& f) {
   int from = 0;
   const std::size_t first = runs.size();
   for (std::int64_t k = f.block_begin; k < f.block_end; ++k) {
     const int b = tree.front_blocks[at(k)], length = graph.block_size[at(b)];
-    if (k < f.block_begin + f.num_eliminated_blocks) {
-      for (int i = 0; i < length; ++i) own_unknowns.push_back(static_cast<int>(tree.unknown_begin[at(b)]) + i);
-      continue;
-    }
+    for (int i = 0; i < length; ++i) row_unknowns.push_back(static_cast<int>(tree.unknown_begin[at(b)]) + i);
+    if (k < f.block_begin + f.num_eliminated_blocks) continue;
     const int to = tree.parent_row[at(k)];
     const bool is_split = to == front(f.parent).num_eliminated;  // the parent's boundary is stored in another part
     if (runs.size() > first && runs.back().to + runs.back().length == to && !is_split) {

@@ -13,17 +13,11 @@
 #include "lane_kernels.hpp"
 #include "lane_plan.hpp"
 #include "lane_scales.hpp"
+#include "moves.hpp"
 #include "null_vectors.hpp"
 #include "transfers.hpp"
 
 namespace bough::solve {
-
-/// A run of boundary rows that goes to adjacent rows of the parent front.
-struct Run {
-  int from;  ///< first row, counted from the start of the boundary
-  int to;    ///< first row in the parent, before room is made for delayed pivots
-  int length;
-};
 
 /// Data of one front. All pointers refer to the pools of State, except for fronts with delayed pivots, and for fronts
 /// that left lanes.
@@ -133,7 +127,7 @@ struct Hierarchical::State {
   std::vector<FrontData> fronts;
   std::vector<Enlarged> enlarged;  ///< by front
   std::vector<std::int64_t> factor_begin, vector_begin, index_begin, run_begin,
-      own_begin;  ///< by front, into the pools
+      row_begin;  ///< by front, into the pools
   SymmetryReport symmetry;
   bool trusts_symmetry = false;
   std::vector<Asymmetry> asymmetries;  ///< by group: the first that the visit found
@@ -141,8 +135,9 @@ struct Hierarchical::State {
   LaneDoubles factor_pool, schur_pool;
   std::vector<double> vector_pool;
   std::vector<int> index_pool;
-  std::vector<int> own_unknowns;  ///< eliminated unknowns of every front (pool)
-  std::vector<Run> runs;
+  std::vector<int> row_unknowns;  ///< unknowns of the rows of every front: eliminated ones, then the boundary (pool)
+  std::vector<Run> runs;          ///< of the boundaries of fronts, in their parents (pool)
+  std::vector<Run> element_runs;  ///< of the blocks of elements, by tree::Tree::scatter_begin
   std::vector<tree::FrontId> scalar_fronts;   ///< fronts that are never in lanes
   std::vector<AugmentedInterface> augmented;  ///< by sub-domain; empty unless elimination is augmented
   NullSpace null_space;
@@ -199,9 +194,10 @@ struct Hierarchical::State {
   template <class Visit>
   void with_scratch(int group, Visit&& visit);
   void factor_lanes(int group);
-  void fetch_front(int front, Transfers& transfers) const;
+  void fetch_front(int front, Transfers& transfers);
   void prefetch_factor(int front, bool downward) const;
   void factor_lane_front(int index, double* factor, Transfers& transfers);
+  Source source_of(const LaneFront& f, const Move& move);
   void factor_lanes_alone(int index, double* factor, LaneSet alone);
   void leave_lanes(int index, const double* factor, LaneSet alone);
   void add_children_vectors(const LaneFront& f, double* v);
@@ -213,7 +209,6 @@ struct Hierarchical::State {
   // lane_handover.cpp
   LaneSet lanes_to_leave(const LaneFront& f) const;
   void factor_lane_alone(int index, int lane);
-  void add_lane_child(tree::FrontId child, FrontData& parent);
   void add_lane_vector(tree::FrontId child, double* gathered, const FrontData& parent);
   void hand_down(tree::FrontId f);
   void fill_lane_vector(tree::FrontId f, bool with_own);
@@ -242,11 +237,12 @@ struct Hierarchical::State {
   void factor_front(tree::FrontId f);
   void size_front(tree::FrontId f);
   double* schur_place(tree::FrontId f);
+  template <class Visit>
+  void for_contributors(tree::FrontId f, Visit&& visit) const;
   void assemble_front(tree::FrontId f);
-  void add_element(int position, FrontData& d);
   void fill_columns(tree::FrontId f, int first, int last);
-  void add_child(tree::FrontId child, const FrontData& parent, int first, int last);
-  void add_child_both_ways(tree::FrontId child, const FrontData& parent);
+  void add_block(tree::FrontId f, const Move& move, const Target& target);
+  void add_delayed(tree::FrontId f, int first, int last);
   void eliminate_front(tree::FrontId f);
   void note_order(tree::FrontId f);
   // inertia.cpp
@@ -318,11 +314,8 @@ void Hierarchical::State::with_vector(FrontData& d, Body&& body) {
 
 template <class Body>
 void Hierarchical::State::for_boundary(tree::FrontId f, Body&& body) const {
-  int row = 0;
-  for (int b : tree.boundary_blocks(front(f)))
-    for (std::int64_t u = tree.unknown_begin[static_cast<std::size_t>(b)];
-         u < tree.unknown_begin[static_cast<std::size_t>(b) + 1]; ++u)
-      body(row++, static_cast<std::size_t>(u));
+  const int* unknown = row_unknowns.data() + row_begin[static_cast<std::size_t>(f)] + front(f).num_eliminated;
+  for (int i = 0; i < front(f).num_boundary; ++i) body(i, static_cast<std::size_t>(unknown[i]));
 }
 
 }  // namespace bough::solve

@@ -1,4 +1,4 @@
-/// Common fronts of the sub-domains of a group: unknowns, elements, children.
+/// Common fronts of the sub-domains of a group: unknowns, elements, children, and the memory of Schur complements.
 #include <algorithm>
 
 #include "lane_planner.hpp"
@@ -80,22 +80,24 @@ int LanePlanner::common_row(const LaneFront& f, int lane, int row) const {
 
 void LanePlanner::add_elements(LaneFront& f) {
   f.element_begin = static_cast<int>(plan_.elements.size());
-  std::vector<Place> places;
+  std::vector<Run> blocks;
   for (int l = 0; l < lanes_wide; ++l) {
     if (f.front[at(l)] == tree::none) continue;
     const tree::Front& own = front(f.front[at(l)]);
     for (int p = own.element_begin; p < own.element_end; ++p) {
       const int e = tree_.element_order[at(p)];
-      places.clear();
+      blocks.clear();
+      int from = 0;
       const auto begin = graph_.element_begin[at(e)];
-      for (auto k = begin; k < graph_.element_begin[at(e) + 1]; ++k)
-        places.push_back({common_row(f, l, tree_.scatter[at(tree_.scatter_begin[at(p)] + k - begin)]),
-                          graph_.block_size[at(graph_.element_blocks[at(k)])]});
-      find_slot(f, l, places).element[at(l)] = e;
+      for (auto k = begin; k < graph_.element_begin[at(e) + 1]; ++k) {
+        const int length = graph_.block_size[at(graph_.element_blocks[at(k)])];
+        blocks.push_back({from, common_row(f, l, tree_.scatter[at(tree_.scatter_begin[at(p)] + k - begin)]), length});
+        from += length;
+      }
+      find_slot(f, l, blocks).element[at(l)] = e;
     }
   }
   f.element_end = static_cast<int>(plan_.elements.size());
-  f.values = plan_.num_values / lanes_wide;
   for (int i = f.element_begin; i < f.element_end; ++i) {
     LaneElement& slot = plan_.elements[at(i)];
     slot.values = plan_.num_values;
@@ -103,24 +105,19 @@ void LanePlanner::add_elements(LaneFront& f) {
   }
 }
 
-LaneElement& LanePlanner::find_slot(const LaneFront& f, int lane, const std::vector<Place>& places) {
+LaneElement& LanePlanner::find_slot(const LaneFront& f, int lane, const std::vector<Run>& blocks) {
   for (std::size_t i = at(f.element_begin); i < plan_.elements.size(); ++i) {
     LaneElement& slot = plan_.elements[i];
-    if (slot.element[at(lane)] >= 0 || slot.place_end - slot.place_begin != static_cast<std::int64_t>(places.size()))
-      continue;
-    bool same = true;
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const Place& p = plan_.places[at(slot.place_begin) + k];
-      same = same && p.row == places[k].row && p.length == places[k].length;
-    }
-    if (same) return slot;
+    if (slot.element[at(lane)] < 0 && std::equal(plan_.runs.begin() + slot.run_begin, plan_.runs.begin() + slot.run_end,
+                                                 blocks.begin(), blocks.end()))
+      return slot;
   }
   LaneElement slot;
   slot.element.fill(-1);
-  slot.place_begin = static_cast<std::int64_t>(plan_.places.size());
-  plan_.places.insert(plan_.places.end(), places.begin(), places.end());
-  slot.place_end = static_cast<std::int64_t>(plan_.places.size());
-  for (const Place& p : places) slot.size += p.length;
+  slot.run_begin = static_cast<std::int64_t>(plan_.runs.size());
+  plan_.runs.insert(plan_.runs.end(), blocks.begin(), blocks.end());
+  slot.run_end = static_cast<std::int64_t>(plan_.runs.size());
+  for (const Run& block : blocks) slot.size += block.length;
   plan_.elements.push_back(slot);
   return plan_.elements.back();
 }
@@ -167,12 +164,11 @@ void LanePlanner::add_children(LaneFront& f) {
           d.child.is_identity &&
           (d.child.from[at(l)] == l || (d.child.from[at(l)] < 0 && is_empty_lane(plan_.fronts[at(d.child.front)], l)));
     d.child.run_begin = static_cast<std::int64_t>(plan_.runs.size());
-    const int first = plan_.fronts[at(d.child.front)].eliminated;
     for (std::size_t i = 0; i < d.to.size(); ++i) {
       if (d.to[i] < 0) continue;
-      const int from = first + static_cast<int>(i);
+      const int from = static_cast<int>(i);
       if (static_cast<std::int64_t>(plan_.runs.size()) > d.child.run_begin && d.to[i] != f.eliminated) {
-        LaneRun& last = plan_.runs.back();  // runs end where the boundary begins
+        Run& last = plan_.runs.back();  // runs end where the boundary begins
         if (last.from + last.length == from && last.to + last.length == d.to[i]) {
           ++last.length;
           continue;
@@ -184,6 +180,45 @@ void LanePlanner::add_children(LaneFront& f) {
     plan_.children.push_back(d.child);
   }
   f.child_end = static_cast<int>(plan_.children.size());
+}
+
+void LanePlanner::add_moves(LaneFront& f) {
+  moves_.begin(f.size(), f.eliminated);
+  for (int c = f.child_begin; c < f.child_end; ++c) moves_.add(c - f.child_begin, plan_.runs_of(plan_.children[at(c)]));
+  for (int i = f.element_begin; i < f.element_end; ++i)
+    moves_.add(~(i - f.element_begin), plan_.runs_of(plan_.elements[at(i)]));
+  f.assembly = moves_.finish();
+}
+
+void LanePlanner::place_work(LaneGroup& group) {
+  struct Live {
+    std::int64_t begin, end;
+    int last;  ///< front that reads it
+  };
+  const int begin = group.front_begin, end = static_cast<int>(plan_.fronts.size());
+  std::vector<int> reader(at(end - begin), end);
+  for (int i = begin; i < end; ++i)
+    for (int c = plan_.fronts[at(i)].child_begin; c < plan_.fronts[at(i)].child_end; ++c)
+      if (plan_.children[at(c)].front >= begin) reader[at(plan_.children[at(c)].front - begin)] = i;
+  std::vector<Live> live;  // by begin
+  std::int64_t most = 0;
+  for (int i = begin; i < end; ++i) {
+    LaneFront& f = plan_.fronts[at(i)];
+    const std::int64_t size = f.schur_size() + f.size();
+    if (f.is_top) {
+      f.schur = plan_.top_size;
+      plan_.top_size += size;
+      continue;
+    }
+    std::erase_if(live, [&](const Live& x) { return x.last < i; });
+    std::int64_t place = 0;
+    auto it = live.begin();
+    for (; it != live.end() && it->begin < place + size; ++it) place = it->end;
+    live.insert(it, {place, place + size, reader[at(i - begin)]});
+    most = std::max(most, place + size);
+    f.schur = place;
+  }
+  group.scratch = most;
 }
 
 }  // namespace bough::solve

@@ -42,28 +42,6 @@ void Hierarchical::State::factor_lane_alone(int index, int lane) {
   });
 }
 
-/// Adds the Schur complement of a lane to a front on the scalar path, scaled.
-void Hierarchical::State::add_lane_child(tree::FrontId child, FrontData& parent) {
-  const LaneFront& f = lanes.fronts[at(lanes.lane_front[at(child)])];
-  const int lane = lanes.lane[at(child)];
-  const double* schur = schur_of(f);
-  std::array<int, most_lane_rows> to;
-  for (std::int64_t r = run_begin[at(child)]; r < run_begin[at(child) + 1]; ++r)
-    for (int i = 0; i < runs[at(r)].length; ++i) to[at(runs[at(r)].from + i)] = parent.delayed_in + runs[at(r)].to + i;
-  const FrontParts parts(parent.matrix());
-  for_boundary(child, [&](int j, std::size_t column) {
-    double *top = parts.top(to[at(j)]), *bottom = parts.bottom(to[at(j)]) - parent.full;
-    for_boundary(child, [&](int i, std::size_t row) {
-      const int k = to[at(i)];
-      if (parent.is_symmetric() && k < to[at(j)]) return;
-      const bool is_mirrored = f.is_symmetric && i < j;  // the root, when its rank is determined
-      const std::int64_t entry =
-          is_mirrored ? static_cast<std::int64_t>(i) * f.boundary + j : static_cast<std::int64_t>(j) * f.boundary + i;
-      (k < parent.full ? top : bottom)[k] += scales.row[row] * schur[entry * lanes_wide + lane] * scales.column[column];
-    });
-  });
-}
-
 /// Adds the condensed right-hand side of a lane to a front on the scalar path, scaled.
 void Hierarchical::State::add_lane_vector(tree::FrontId child, double* gathered, const FrontData& parent) {
   const LaneFront& f = lanes.fronts[at(lanes.lane_front[at(child)])];

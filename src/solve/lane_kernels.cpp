@@ -231,34 +231,33 @@ class LaneChoice {
 
 }  // namespace
 
-void move_block(const double* source, const LaneMove& move, double* target) {
+void move_block(const Source& source, const Move& move, const Target& target) {
+  if (source.from_lane != nullptr) {
+    const LaneChoice choice(source.from_lane);
+    for (int j = 0; j < move.columns; ++j) {
+      const int above = move.is_triangle ? j : 0;
+      const double* from = source.first + (j * source.column_step + above) * wide;
+      double* to = target.first + j * target.step + above * wide;
+      if (move.is_first)
+        choice.move<true>(from, move.rows - above, to);
+      else
+        choice.move<false>(from, move.rows - above, to);
+    }
+    return;
+  }
   // The source is read in its order in memory; the few lines of the target stay in the nearest cache.
-  const bool by_row = move.column_step == 1;
+  const bool by_row = source.column_step == 1;
   const int outer = by_row ? move.rows : move.columns, inner = by_row ? move.columns : move.rows;
-  const std::ptrdiff_t from_step = static_cast<std::ptrdiff_t>(by_row ? move.row_step : move.column_step) * wide;
-  const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(move.target_step) * wide;
-  const std::ptrdiff_t to_step = by_row ? wide : column, to_inner = by_row ? column : wide;
+  const std::ptrdiff_t from_step = (by_row ? source.row_step : source.column_step) * wide;
+  const std::ptrdiff_t to_step = by_row ? wide : target.step, to_inner = by_row ? target.step : wide;
   for (int j = 0; j < outer; ++j) {
     const int begin = move.is_triangle && !by_row ? j : 0, end = move.is_triangle && by_row ? j + 1 : inner;
-    const double* from = source + j * from_step + begin * wide;
-    double* to = target + j * to_step + begin * to_inner;
+    const double* from = source.first + j * from_step + begin * wide;
+    double* to = target.first + j * to_step + begin * to_inner;
     if (move.is_first)
       move_run<true>(from, end - begin, to, to_inner);
     else
       move_run<false>(from, end - begin, to, to_inner);
-  }
-}
-
-void move_block(const double* source, const LaneMove& move, const std::int8_t* from_lane, double* target) {
-  const LaneChoice choice(from_lane);
-  for (int j = 0; j < move.columns; ++j) {
-    const int above = move.is_triangle ? j : 0;
-    const double* from = source + (static_cast<std::ptrdiff_t>(j) * move.column_step + above) * wide;
-    double* to = target + (static_cast<std::ptrdiff_t>(j) * move.target_step + above) * wide;
-    if (move.is_first)
-      choice.move<true>(from, move.rows - above, to);
-    else
-      choice.move<false>(from, move.rows - above, to);
   }
 }
 
@@ -285,20 +284,19 @@ bool is_its_transpose(const double* element, int size) {
 
 }  // namespace
 
-double largest_asymmetry_lanes(const double* element, int size, const Place* places, int count,
-                               const double* row_scale) {
+double largest_asymmetry_lanes(const double* element, int size, std::span<const Run> blocks, const double* row_scale) {
   if (is_its_transpose(element, size)) return 0.0;
   double largest = 0.0;
   for (int l = 0; l < wide; l += width) {
     Lanes most = {};
-    for (int p = 0, i = 0; p < count; ++p)
-      for (int r = places[p].row; r < places[p].row + places[p].length; ++r, ++i) {
+    for (const Run& rows : blocks)
+      for (int r = rows.to, i = rows.from; r < rows.to + rows.length; ++r, ++i) {
         const double* row = element + static_cast<std::ptrdiff_t>(i) * size * wide + l;
         const double* column = element + static_cast<std::ptrdiff_t>(i) * wide + l;
         const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(size) * wide;
         Lanes of_row = {};
-        for (int q = 0, j = 0; j < i; ++q)
-          for (int c = places[q].row; c < places[q].row + places[q].length && j < i; ++c, ++j)
+        for (const Run& columns : blocks)
+          for (int c = columns.to, j = columns.from; c < columns.to + columns.length && j < i; ++c, ++j)
             of_row = greater_of(
                 of_row, magnitude((load(row + j * wide) - load(column + j * step)) * load(row_scale + c * wide + l)));
         most = greater_of(most, of_row * load(row_scale + r * wide + l));

@@ -6,12 +6,11 @@
 
 #include "bough/solve/element_view.hpp"
 #include "bough/solve/options.hpp"
+#include "moves.hpp"
 #include "pivot_rule.hpp"
 
 namespace bough::solve {
 
-struct LaneMove;
-struct Place;
 class Transfers;
 
 /// Bit l: lane l.
@@ -43,18 +42,15 @@ void backward_lanes(const double* factor, int n, int e, double* v);
 void backward_lanes_symmetric(const double* factor, int n, int e, double* v);
 void backward_left_lanes(const double* factor, int n, int e, double* v);
 
-/// target (+)= the block of a move: rows x columns packs; of a triangle only entries on and below the diagonal.
-void move_block(const double* source, const LaneMove& move, double* target);
-/// The same for a child's Schur complement: its lane from_lane[l] goes to lane l, or zero if that is negative.
-void move_block(const double* source, const LaneMove& move, const std::int8_t* from_lane, double* target);
+/// The block of a move in packs. One of the steps of the source is 1.
+void move_block(const Source& source, const Move& move, const Target& target);
 
 /// y_i += sum_j element_ij x_j for a block as above.
 void multiply_block_lanes(const double* element, int stride, int p, int q, const double* x, double* y);
 
-/// Largest of |a_ij - a_ji| scale_i scale_j over all lanes of an element, `count` blocks at their places in the front
-/// whose row scales are given; infinity or NaN if there is a NaN.
-double largest_asymmetry_lanes(const double* element, int size, const Place* places, int count,
-                               const double* row_scale);
+/// Largest of |a_ij - a_ji| scale_i scale_j over all lanes of an element with blocks in a front whose row scales are
+/// given; infinity or NaN if there is a NaN.
+double largest_asymmetry_lanes(const double* element, int size, std::span<const Run> blocks, const double* row_scale);
 
 /// Largest of |v_i| scale_i over `count` packs and all lanes; infinity or NaN if there is a NaN.
 double largest_scaled(const double* v, const double* scale, int count);

@@ -35,6 +35,7 @@ LanePlan LanePlanner::run() {
   const int root = form({tree_.root()}, false);
   plan_.walk.subdomains[at(root)].parent = tree::none;
   set_levels();
+  plan_.lists = moves_.take();
   return std::move(plan_);
 }
 

@@ -9,52 +9,16 @@
 #include "bough/solve/element_view.hpp"
 #include "bough/solve/options.hpp"
 #include "bough/tree/tree.hpp"
+#include "moves.hpp"
 
 namespace bough::solve {
 
 /// Up to eight equal elements of eight equal fronts: one pack per entry.
 struct LaneElement {
-  std::array<int, lanes_wide> element;  ///< ids; -1 for an unused lane
-  int size = 0;                         ///< unknowns
-  std::int64_t place_begin = 0;         ///< LanePlan::places of its blocks [place_begin, place_end)
-  std::int64_t place_end = 0;
-  std::int64_t values = 0;  ///< first entry of the first lane, in doubles, in the element store
-};
-
-/// A block of an element in its front.
-struct Place {
-  int row;     ///< first row in the front
-  int length;  ///< unknowns
-};
-
-/// The transfer of one block of an element or of a child's Schur complement into a front; offsets and steps in packs.
-/// Fronts with equal transfers share their lists of moves and gaps, which are read with every front.
-struct LaneMove {
-  std::int64_t source = 0;  ///< from LaneFront::values, or from the child's Schur complement
-  std::int64_t target = 0;  ///< from the factor, or from the Schur complement of the front
-  int rows = 0, columns = 0;
-  int row_step = 0, column_step = 0;  ///< of the source
-  int target_step = 0;                ///< between columns of the target
-  int child = -1;                     ///< index from LaneFront::child_begin on; -1: an element
-  bool to_schur = false;
-  bool is_triangle = false;  ///< a block on the diagonal of a symmetric front: entries above the diagonal are omitted
-  bool is_first = false;     ///< the first at its target: written, not added
-  bool operator==(const LaneMove&) const = default;
-};
-
-/// A run of packs to which no element and no child contributes.
-struct LaneGap {
-  std::int64_t target;
-  int count;
-  bool in_schur;
-  bool operator==(const LaneGap&) const = default;
-};
-
-/// Rows of a child's boundary that go to adjacent rows of the parent.
-struct LaneRun {
-  int from;  ///< row of the child front
-  int to;    ///< row of the parent front
-  int length;
+  std::array<int, lanes_wide> element;      ///< ids; -1 for an unused lane
+  int size = 0;                             ///< unknowns
+  std::int64_t run_begin = 0, run_end = 0;  ///< LanePlan::runs, one for each of its blocks
+  std::int64_t values = 0;                  ///< first entry of the first lane, in doubles, in the element store
 };
 
 /// A child of a front in lockstep: lane l of the parent takes lane from[l] of the child front, or none (-1).
@@ -72,9 +36,7 @@ struct LaneFront {
   bool has_padding = false;                     ///< some lane has fewer unknowns to eliminate
   int element_begin = 0, element_end = 0;       ///< LanePlan::elements
   int child_begin = 0, child_end = 0;           ///< LanePlan::children
-  int move_begin = 0, move_end = 0;             ///< LanePlan::moves
-  int gap_begin = 0, gap_end = 0;               ///< LanePlan::gaps
-  std::int64_t values = 0;                      ///< first pack of its element matrices, in the element store
+  Assembly assembly;                            ///< of LanePlan::lists
   /// First pack of the Schur complement, then of the vector: in the group's scratch; for a top in permanent memory.
   std::int64_t schur = 0;
   std::int64_t factor = 0;    ///< first pack of the factor: e columns of all n rows, then the b columns of U12
@@ -103,10 +65,8 @@ struct LanePlan {
   std::vector<LaneFront> fronts;
   std::vector<LaneElement> elements;
   std::vector<LaneChild> children;
-  std::vector<Place> places;
-  std::vector<LaneRun> runs;
-  std::vector<LaneMove> moves;
-  std::vector<LaneGap> gaps;
+  std::vector<Run> runs;
+  MoveLists lists;
   std::vector<int> unknowns;
   std::vector<ElementBatch> batches;  ///< every element once, by group
   std::vector<int> lane_front;        ///< by front of the tree: index in fronts, -1 elsewhere
@@ -117,6 +77,12 @@ struct LanePlan {
   std::int64_t num_values = 0;                 ///< doubles of the element store
   std::vector<std::int64_t> element_first;     ///< by element
   std::vector<int> element_stride;             ///< by element
+  /// Of a LaneElement or LaneChild.
+  template <class Contributor>
+  std::span<const Run> runs_of(const Contributor& c) const {
+    return std::span(runs).subspan(static_cast<std::size_t>(c.run_begin),
+                                   static_cast<std::size_t>(c.run_end - c.run_begin));
+  }
 };
 
 /// Groups the sub-domains of a tree. The result depends only on graph and tree; batches and positions in the element

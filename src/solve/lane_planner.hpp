@@ -1,6 +1,6 @@
 #pragma once
-/// Makes a LanePlan: the groups of sub-domains (lane_plan.cpp), their common fronts (lane_fronts.cpp), and the transfer
-/// of every block into them (lane_moves.cpp). Internal to solve.
+/// Makes a LanePlan: the groups of sub-domains (lane_plan.cpp) and their common fronts (lane_fronts.cpp). Internal to
+/// solve.
 #include <optional>
 
 #include "bough/blocks/at.hpp"
@@ -11,7 +11,11 @@ namespace bough::solve {
 class LanePlanner {
  public:
   LanePlanner(const blocks::BlockGraph& graph, const tree::Tree& tree, bool use_lanes, Symmetry symmetry)
-      : graph_(graph), tree_(tree), use_lanes_(use_lanes), is_symmetric_(symmetry != Symmetry::general) {}
+      : graph_(graph),
+        tree_(tree),
+        use_lanes_(use_lanes),
+        is_symmetric_(symmetry != Symmetry::general),
+        moves_(is_symmetric_) {}
 
   LanePlan run();
 
@@ -57,14 +61,9 @@ class LanePlanner {
   /// Row of the common front for a row of a lane's front.
   int common_row(const LaneFront& f, int lane, int row) const;
   void add_elements(LaneFront& f);
-  LaneElement& find_slot(const LaneFront& f, int lane, const std::vector<Place>& places);
+  LaneElement& find_slot(const LaneFront& f, int lane, const std::vector<Run>& blocks);
   void add_children(LaneFront& f);
-
-  // transfers into them
-  /// Lists every block of every contributor with its target, in fixed order. The first one at a target is written,
-  /// later ones are added, and the rest is a gap. So no front is cleared as a whole.
   void add_moves(LaneFront& f);
-  void share_moves(LaneFront& f);
   /// Places Schur complements and vectors in the group's scratch by first fit. They are needed until the parent has
   /// read them on the way up; vectors also on the way down. Those of the top are kept.
   void place_work(LaneGroup& group);
@@ -74,10 +73,7 @@ class LanePlanner {
   bool use_lanes_, is_symmetric_;
   std::vector<int> largest_;
   std::vector<char> is_path_;
-  struct MoveLists {
-    int move_begin, move_end, gap_begin, gap_end;
-  };
-  std::vector<MoveLists> move_lists_;  ///< the last new lists
+  MovePlanner moves_;
   LanePlan plan_;
 };
 

@@ -44,15 +44,14 @@ void Hierarchical::State::factor_lanes(int index) {
 
 /// Prefetches the input of the next front of an upward walk: if a factorization does not fit into the caches, waiting
 /// for memory would take half of its time.
-void Hierarchical::State::fetch_front(int index, Transfers& transfers) const {
+void Hierarchical::State::fetch_front(int index, Transfers& transfers) {
   const LaneFront& f = lanes.fronts[at(index)];
   if (f.is_symmetric && trusts_symmetry) {  // one triangle
-    for (int i = f.move_begin; i < f.move_end; ++i) {
-      const LaneMove& move = lanes.moves[at(i)];
-      for (int row = 0; move.child < 0 && row < move.rows; ++row)
-        transfers.fetch(
-            elements.values() + (f.values + move.source + static_cast<std::int64_t>(row) * move.row_step) * lanes_wide,
-            move.is_triangle ? row + 1 : move.columns);
+    for (const Move& move : lanes.lists.moves_of(f.assembly)) {
+      if (move.contributor >= 0) continue;
+      const Source source = source_of(f, move);
+      for (int row = 0; row < move.rows; ++row)
+        transfers.fetch(source.first + row * source.row_step * lanes_wide, move.is_triangle ? row + 1 : move.columns);
     }
   } else {
     for (int i = f.element_begin; i < f.element_end; ++i) {
@@ -92,9 +91,8 @@ void Hierarchical::State::check_front_symmetric(int index) {
   const LaneFront& f = lanes.fronts[at(index)];
   for (int i = f.element_begin; i < f.element_end; ++i) {
     const LaneElement& element = lanes.elements[at(i)];
-    const double most = largest_asymmetry_lanes(
-        elements.values() + element.values, element.size, lanes.places.data() + element.place_begin,
-        static_cast<int>(element.place_end - element.place_begin), lane_scales.row(index));
+    const double most = largest_asymmetry_lanes(elements.values() + element.values, element.size,
+                                                lanes.runs_of(element), lane_scales.row(index));
     if (!Asymmetry::shows(most)) continue;
     for (int e : element.element)
       if (e >= 0) check_element_symmetric(f.group, e);
@@ -149,7 +147,7 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
   double* schur = schur_of(f);
   if (exceeds_caches) {
     if (index + 1 < static_cast<int>(lanes.fronts.size())) fetch_front(index + 1, transfers);
-    transfers.spread(f.move_end - f.move_begin + elimination_steps(n, e));
+    transfers.spread(f.assembly.move_end - f.assembly.move_begin + elimination_steps(n, e));
   }
   if (compares_triangles()) check_front_symmetric(index);
   LaneSet& leaving = leaving_lanes[at(index)];
@@ -160,25 +158,15 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
     factor_lanes_alone(index, factor, alone);
     return;
   }
-  for (int i = f.gap_begin; i < f.gap_end; ++i) {
-    const LaneGap& gap = lanes.gaps[at(i)];
-    std::memset((gap.in_schur ? schur : factor) + gap.target * lanes_wide, 0,
-                sizeof(double) * lanes_wide * at(gap.count));
+  const FrontParts parts(factor, n * lanes_wide, factor + static_cast<std::ptrdiff_t>(n) * e * lanes_wide,
+                         e * lanes_wide, schur, f.boundary * lanes_wide, n, e);
+  for (const Gap& gap : lanes.lists.gaps_of(f.assembly)) {
+    double* first = target_of<lanes_wide>(parts, gap.row, gap.column).first;
+    std::memset(first, 0, sizeof(double) * lanes_wide * at(gap.rows));
   }
-  for (int i = f.move_begin; i < f.move_end; ++i) {
+  for (const Move& move : lanes.lists.moves_of(f.assembly)) {
     transfers.step();
-    const LaneMove& move = lanes.moves[at(i)];
-    double* target = (move.to_schur ? schur : factor) + move.target * lanes_wide;
-    if (move.child < 0) {
-      move_block(elements.values() + (f.values + move.source) * lanes_wide, move, target);
-      continue;
-    }
-    const LaneChild& child = lanes.children[at(f.child_begin + move.child)];
-    const double* source = schur_of(lanes.fronts[at(child.front)]) + move.source * lanes_wide;
-    if (child.is_identity)
-      move_block(source, move, target);
-    else
-      move_block(source, move, child.from.data(), target);
+    move_block(source_of(f, move), move, target_of<lanes_wide>(parts, move.row, move.column));
   }
   if (f.has_padding)
     for (int k = 0; k < e * lanes_wide; ++k)
@@ -193,6 +181,19 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
   alone = static_cast<LaneSet>(alone | refused);
   scalar_lanes[at(index)] = alone;
   leave_lanes(index, factor, alone);
+}
+
+Source Hierarchical::State::source_of(const LaneFront& f, const Move& move) {
+  if (move.contributor < 0) {
+    const LaneElement& element = lanes.elements[at(f.element_begin + ~move.contributor)];
+    return {elements.values() + element.values +
+                (static_cast<std::ptrdiff_t>(move.from_row) * element.size + move.from_column) * lanes_wide,
+            element.size, 1};
+  }
+  const LaneChild& child = lanes.children[at(f.child_begin + move.contributor)];
+  const LaneFront& from = lanes.fronts[at(child.front)];
+  return {schur_of(from) + (static_cast<std::ptrdiff_t>(move.from_column) * from.boundary + move.from_row) * lanes_wide,
+          1, from.boundary, child.is_identity ? nullptr : child.from.data()};
 }
 
 /// All lanes leave: the front is an identity in each of them.
@@ -227,9 +228,9 @@ void Hierarchical::State::leave_lanes(int index, const double* factor, LaneSet a
 void Hierarchical::State::add_children_vectors(const LaneFront& f, double* v) {
   for (int c = f.child_begin; c < f.child_end; ++c) {
     const LaneChild& child = lanes.children[at(c)];
-    const double* g = vector_of(lanes.fronts[at(child.front)]);
-    for (auto p = child.run_begin; p < child.run_end; ++p) {
-      const LaneRun& rows = lanes.runs[at(p)];
+    const LaneFront& from = lanes.fronts[at(child.front)];
+    const double* g = vector_of(from) + from.eliminated * lanes_wide;
+    for (const Run& rows : lanes.runs_of(child)) {
       if (child.is_identity) {
         add_packs(g + rows.from * lanes_wide, rows.length, v + rows.to * lanes_wide);
       } else {
@@ -286,9 +287,9 @@ void Hierarchical::State::backward_lane_front(int index) {
   }
   for (int c = f.child_begin; c < f.child_end; ++c) {
     const LaneChild& child = lanes.children[at(c)];
-    double* to = vector_of(lanes.fronts[at(child.front)]);
-    for (auto p = child.run_begin; p < child.run_end; ++p) {
-      const LaneRun& rows = lanes.runs[at(p)];
+    const LaneFront& below = lanes.fronts[at(child.front)];
+    double* to = vector_of(below) + below.eliminated * lanes_wide;
+    for (const Run& rows : lanes.runs_of(child)) {
       if (child.is_identity) {
         std::memcpy(to + rows.from * lanes_wide, v + rows.to * lanes_wide,
                     sizeof(double) * lanes_wide * at(rows.length));

@@ -48,13 +48,11 @@ void Hierarchical::State::residual_lane_front(int index, SolutionSizes& most) {
   for (int i = f.element_begin; i < f.element_end; ++i) {
     const LaneElement& element = lanes.elements[at(i)];
     const double* values = elements.values() + element.values;
-    const Place* places = lanes.places.data() + element.place_begin;
-    const auto count = static_cast<int>(element.place_end - element.place_begin);
-    for (int p = 0, i0 = 0; p < count; i0 += places[p++].length)
-      for (int q = 0, j0 = 0; q < count; j0 += places[q++].length)
-        multiply_block_lanes(values + static_cast<std::int64_t>(i0 * element.size + j0) * lanes_wide, element.size,
-                             places[p].length, places[q].length, v + places[q].row * lanes_wide,
-                             r + places[p].row * lanes_wide);
+    for (const Run& row : lanes.runs_of(element))
+      for (const Run& column : lanes.runs_of(element))
+        multiply_block_lanes(values + static_cast<std::int64_t>(row.from * element.size + column.from) * lanes_wide,
+                             element.size, row.length, column.length, v + column.to * lanes_wide,
+                             r + row.to * lanes_wide);
   }
   const double* scale = lane_scales.row(index);
   for (int k = 0; k < f.eliminated * lanes_wide; ++k) {

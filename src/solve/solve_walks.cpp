@@ -44,7 +44,7 @@ void Hierarchical::State::prefetch_front(tree::FrontId f) const {
 void Hierarchical::State::gather_rhs(tree::FrontId f, double* gathered) {
   const tree::Front& shape = front(f);
   const FrontData& d = data(f);
-  const int* own = own_unknowns.data() + own_begin[at(f)];
+  const int* own = row_unknowns.data() + row_begin[at(f)];
   for (int i = 0; i < d.delayed_in; ++i) gathered[i] = 0.0;
   for (int i = 0; i < shape.num_eliminated; ++i) {
     const std::size_t u = at(own[i]);

@@ -125,7 +125,7 @@ void Hierarchical::State::note_order(tree::FrontId f) {
   FrontData& d = data(f);
   d.rows_in_order = d.columns_in_order = true;
   for (int i = 0; i < d.full; ++i) d.rows_in_order = d.rows_in_order && d.row_from[i] == i;
-  const int* own = own_unknowns.data() + own_begin[at(f)];
+  const int* own = row_unknowns.data() + row_begin[at(f)];
   for (int i = d.delayed_in; i < d.full; ++i)
     d.columns_in_order = d.columns_in_order && d.columns[i] == own[i - d.delayed_in];
 }
