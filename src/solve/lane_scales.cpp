@@ -1,5 +1,7 @@
 #include "lane_scales.hpp"
 
+#include <algorithm>
+
 #include "bough/blocks/at.hpp"
 
 namespace bough::solve {
@@ -27,23 +29,17 @@ void fill(const LaneFront& f, const LanePlan& lanes, const tree::Tree& tree, con
   }
 }
 
-std::int64_t size_of_all(const LanePlan& lanes) {
-  std::int64_t size = 0;
-  for (const LaneFront& f : lanes.fronts) size += size_of(f);
-  return size;
-}
-
 }  // namespace
 
-LaneScales::LaneScales(const LanePlan& lanes)
-    : numbers_(static_cast<std::int64_t>(lanes.fronts.size()), size_of_all(lanes)) {}
+LaneScales::LaneScales(const LanePlan& lanes) : begin_(1, 0) {
+  for (const LaneFront& f : lanes.fronts) begin_.push_back(begin_.back() + size_of(f));
+  values_.resize(at(begin_.back()));
+}
 
 void LaneScales::set(const LanePlan& lanes, const tree::Tree& tree, const Scales& scales) {
-  numbers_.clear();
-  for (const LaneFront& f : lanes.fronts) {
-    fill(f, lanes, tree, scales, numbers_.begin(size_of(f), 1.0));
-    numbers_.end();
-  }
+  std::fill(values_.begin(), values_.end(), 1.0);
+  for (std::size_t f = 0; f < lanes.fronts.size(); ++f)
+    fill(lanes.fronts[f], lanes, tree, scales, values_.data() + begin_[f]);
 }
 
 }  // namespace bough::solve

@@ -51,24 +51,7 @@ Assembly MovePlanner::finish() {
   fill_gaps(0, size_, 0, size_);
   assembly_.move_end = static_cast<int>(lists_.moves.size());
   assembly_.gap_end = static_cast<int>(lists_.gaps.size());
-  share();
   return assembly_;
-}
-
-/// Uses the lists of one of the last fronts with lists of their own if they are equal.
-void MovePlanner::share() {
-  constexpr std::size_t most = 32;
-  for (const Assembly& known : remembered_) {
-    if (!std::ranges::equal(lists_.moves_of(assembly_), lists_.moves_of(known)) ||
-        !std::ranges::equal(lists_.gaps_of(assembly_), lists_.gaps_of(known)))
-      continue;
-    lists_.moves.resize(at(assembly_.move_begin));
-    lists_.gaps.resize(at(assembly_.gap_begin));
-    assembly_ = known;
-    return;
-  }
-  if (remembered_.size() == most) remembered_.erase(remembered_.begin());
-  remembered_.push_back(assembly_);
 }
 
 }  // namespace bough::solve

@@ -29,15 +29,14 @@ struct Move {
   int row, column, rows, columns;
   bool is_triangle = false;  ///< a block on the diagonal of a symmetric front: entries above the diagonal are omitted
   bool is_first = false;     ///< the first at its target: written, not added
-  bool operator==(const Move&) const = default;
 };
 
 /// The first entry of a block in memory, and the distances of its rows and columns in entries.
 struct Source {
   const double* first;
   std::ptrdiff_t row_step, column_step;
-  /// In lanes, of a child's Schur complement, column by column: its lane from_lane[l] goes to lane l, or zero if that is
-  /// negative. Null: all lanes stay.
+  /// In lanes, of a child's Schur complement, column by column: its lane from_lane[l] goes to lane l, or zero if that
+  /// is negative. Null: all lanes stay.
   const std::int8_t* from_lane = nullptr;
 };
 
@@ -94,10 +93,9 @@ void for_blocks(int contributor, std::span<const Run> runs, bool is_symmetric, i
 /// Entries of a column of a front to which nothing contributes.
 struct Gap {
   int row, column, rows;
-  bool operator==(const Gap&) const = default;
 };
 
-/// The lists of one front. Fronts with equal lists may share them.
+/// The lists of one front.
 struct Assembly {
   int move_begin = 0, move_end = 0;
   int gap_begin = 0, gap_end = 0;
@@ -131,14 +129,12 @@ class MovePlanner {
   void fill_gaps(int row, int row_end, int column, int column_end);
   bool has_place(int row, int column) const { return !is_symmetric_ || row >= column; }
   char& reached(int row, int column) { return reached_[at(column) * at(size_) + at(row)]; }
-  void share();
 
   bool is_symmetric_;
   MoveLists lists_;
   int size_ = 0, eliminated_ = 0;
   Assembly assembly_;
-  std::vector<char> reached_;         ///< by entry of the front
-  std::vector<Assembly> remembered_;  ///< the last ones with lists of their own
+  std::vector<char> reached_;  ///< by entry of the front
 };
 
 }  // namespace bough::solve
