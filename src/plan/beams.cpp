@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/plan/stores.hpp"
 #include "bough/scene/components.hpp"
 #include "bough/scene/poses.hpp"
 #include "geometry.hpp"
@@ -165,6 +166,22 @@ void Builder::add_sensors() {
     if (s.chain.empty() && !s.frame.empty()) p.chain.push_back(p.frame);
     plan.sensors.push_back(p);
   }
+}
+
+void Builder::list_turning_joints() {
+  std::vector<char> is_read(plan.joints.size(), 0);
+  const auto note = [&is_read](int joint, motion::RowKind coordinate) {
+    if (joint >= 0 && motion::traits_of(coordinate).has_angle) is_read[static_cast<std::size_t>(joint)] = 1;
+  };
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    const elements::Joint& e = joint_element(plan, static_cast<int>(j));
+    for (int k = 0; k < e.num_rows; ++k) note(static_cast<int>(j), e.rows[k].kind);
+    for (int k = 0; k < e.num_efforts; ++k) note(static_cast<int>(j), e.efforts[k].coordinate);
+  }
+  for (const SignalPlan& s : plan.signals) note(s.joint, motion::RowKind::angle);
+  for (const SensorPlan& s : plan.sensors) note(s.joint, s.coordinate);
+  for (std::size_t j = 0; j < is_read.size(); ++j)
+    if (is_read[j] != 0) plan.turning_joints.push_back(static_cast<int>(j));
 }
 
 }  // namespace bough::plan

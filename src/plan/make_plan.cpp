@@ -91,8 +91,6 @@ int Builder::add_joint(elements::Joint& j, const std::string& name, const std::s
   p.name = name;
   p.what = what;
   p.element = add(j, name);
-  for (int k = 0; k < j.num_rows; ++k) p.counts_turns |= motion::traits_of(j.rows[k].kind).has_angle;
-  for (int k = 0; k < j.num_efforts; ++k) p.counts_turns |= motion::traits_of(j.efforts[k].coordinate).has_angle;
   p.multiplier_begin = plan.num_multipliers;
   for (int k = 0; k < j.num_rows; ++k) p.rows.push_back(k);
   plan.num_multipliers += j.num_rows;
@@ -144,9 +142,7 @@ void Builder::add_joints() {
       else if (f.effort.node() != nullptr)
         e.law = add_law(f.effort, given.name);
     }
-    const int id = add_joint(j, given.name, "joint");
-    JointPlan& p = plan.joints[static_cast<std::size_t>(id)];
-    for (const scene::JointCoordinate& c : type.coordinates) p.counts_turns |= motion::traits_of(c.kind).has_angle;
+    add_joint(j, given.name, "joint");
   }
 }
 
@@ -435,6 +431,7 @@ Plan make_plan(const scene::Scene& scene) {
   b.list_signals_of_elements();
   b.make_graph();
   b.add_sensors();
+  b.list_turning_joints();
   return std::move(b.plan);
 }
 

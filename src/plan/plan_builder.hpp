@@ -122,6 +122,7 @@ struct Builder {
   void list_signals_of_elements();
   void make_graph();
   void add_sensors();
+  void list_turning_joints();
 };
 
 }  // namespace bough::plan

@@ -187,8 +187,8 @@ void accept_turns(const System& system, State& state) {
   const plan::Plan& plan = system.plan();
   const auto count = [&]<class G>(const elements::FieldOn<G, double>& f) {
     auto by_joint = [&](std::int64_t begin, std::int64_t end) {
-      for (auto j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end); ++j) {
-        if (!plan.joints[j].counts_turns) continue;
+      for (std::int64_t k = begin; k < end; ++k) {
+        const auto j = static_cast<std::size_t>(plan.turning_joints[static_cast<std::size_t>(k)]);
         plan::with_element(plan::arrays_on<G>(plan), plan.directory[static_cast<std::size_t>(plan.joints[j].element)],
                            [&](const auto& e) {
                              if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint)
@@ -196,7 +196,7 @@ void accept_turns(const System& system, State& state) {
                            });
       }
     };
-    system.walker().for_each_chunk(static_cast<std::int64_t>(plan.joints.size()), element_grain,
+    system.walker().for_each_chunk(static_cast<std::int64_t>(plan.turning_joints.size()), element_grain,
                                    tree::make_chunk(by_joint));
   };
   state.visit([&]<class G>(const NodesOn<G>&) { count(system.instant().field_on<G>(state)); });

@@ -2,6 +2,7 @@
 
 #include "bough/elements/limits.hpp"
 #include "bough/plan/frames.hpp"
+#include "bough/plan/stores.hpp"
 #include "moving_nodes.hpp"
 
 namespace bough::step {
@@ -52,11 +53,9 @@ State make_initial_state(const plan::Plan& plan) {
   plan::FrameMotions frames;
   if (!plan.frames.empty()) frames = plan::frames_at_start(plan);
   field.carriers = frames.in_ground.data();
-  for (const plan::JointPlan& j : plan.joints)
-    plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(j.element)], [&](const auto& e) {
-      if constexpr (std::decay_t<decltype(e)>::role == elements::Role::joint)
-        s.turns.push_back(j.counts_turns ? elements::eval_joint_angle(e, field, 0.0) : 0.0);
-    });
+  s.turns.assign(plan.joints.size(), 0.0);
+  for (const int j : plan.turning_joints)
+    s.turns[static_cast<std::size_t>(j)] = elements::eval_joint_angle(plan::joint_element(plan, j), field, 0.0);
   plan.with_group([&]<class G>() {
     if constexpr (!std::is_same_v<G, Se3>) {
       NodesOn<G>& reduced = s.emplace<G>();

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "../step/small_scenes.hpp"
 #include "bough/laws/make_law.hpp"
@@ -34,6 +36,27 @@ TEST(MakePlan, numbers_elements_blocks_and_multipliers_without_gaps) {
   }
   for (const BeamPlan& b : p.beams)
     for (int e : b.elements) EXPECT_EQ(p.element_owner[static_cast<std::size_t>(e)], b.name);
+}
+
+TEST(MakePlan, counts_turns_of_those_joints_whose_angle_is_read) {
+  scene::Scene chain = test::make_chain(5);
+  for (const auto& [kind, joint] :
+       {std::pair{scene::SensorKind::joint_reaction, "hinge1"}, std::pair{scene::SensorKind::joint_angle, "hinge2"}}) {
+    scene::Sensor sensor;
+    sensor.name = joint;
+    sensor.kind = kind;
+    sensor.joint = joint;
+    chain.sensors.push_back(sensor);
+  }
+  scene::JointForce spring;
+  spring.coordinate = "angle";
+  spring.stiffness = 1.0;
+  chain.joints[3].forces.push_back(spring);
+  scene::JointDrive drive;
+  drive.coordinate = "angle";
+  drive.law = laws::make_constant(0.0);
+  chain.joints[4].drives.push_back(drive);
+  EXPECT_EQ(make_plan(chain).turning_joints, (std::vector<int>{2, 3, 4}));
 }
 
 TEST(MakePlan, says_that_a_retired_simplification_changes_nothing) {

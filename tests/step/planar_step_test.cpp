@@ -137,9 +137,14 @@ scene::Scene make_held_bar() {
   s.beams[0].elements = 11;  // nodes that do not fill their lanes
   return s;
 }
-/// A link that spins about its hinge.
+/// A link that spins about its hinge, whose angle is measured.
 scene::Scene make_spinning_link() {
   scene::Scene s = test::make_chain(1);
+  scene::Sensor angle;
+  angle.name = "angle";
+  angle.kind = scene::SensorKind::joint_angle;
+  angle.joint = "hinge0";
+  s.sensors.push_back(angle);
   s.beams[0].elements = 1;
   for (const auto& [node, speed] : {std::pair{"a0", 0.0}, std::pair{"b0", -40.0}}) {
     scene::InitialVelocity v;

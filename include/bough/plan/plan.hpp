@@ -46,7 +46,6 @@ struct JointPlan {
   /// Numbers of its rows that are unknowns, in order. All other rows are satisfied by every motion that the scene has,
   /// and their multipliers are zero.
   std::vector<int> rows;
-  bool counts_turns = false;
   std::string what;  ///< "joint", "prescribed motion"
   /// Length of the larger of the two parts that it connects, for judging gaps [m] (scene::PartLengths).
   double length = 1.0;
@@ -223,6 +222,8 @@ struct Plan {
   std::vector<std::string> element_owner;  ///< name of the part of the scene that each element belongs to
   std::vector<JointPlan> joints;
   std::vector<int> joint_of_element;  ///< index in joints, by global element id; -1: the element is no joint
+  /// Indices in joints of those whose turns are counted: a row, an effort, a signal or a sensor reads their angle.
+  std::vector<int> turning_joints;
   int num_multipliers = 0;
   std::vector<BeamPlan> beams;
   std::vector<LawPlan> laws;

@@ -78,7 +78,7 @@ StepReport equilibrate(System& system, State& state, const StepOptions& options,
 /// Whether joints stayed on their branch (no flipped poses) and relative rotations below pi; else says what happened.
 std::optional<Trouble> check_shape(const System& system, const State& state);
 
-/// New counts of turns after an accepted step.
+/// New counts of turns after an accepted step, for Plan::turning_joints.
 void accept_turns(const System& system, State& state);
 
 }  // namespace bough::step

@@ -63,7 +63,8 @@ struct State {
   std::vector<double> multiplier_trend_change;  ///< change of that from the step before; zero after a start
   int multiplier_order = 0;                     ///< as predictor_order
   SignalValues signals;
-  std::vector<double> turns;  ///< angle of each joint at the last accepted step [rad]
+  /// Angle of each joint at the last accepted step, where it is counted (Plan::turning_joints); else 0 [rad].
+  std::vector<double> turns;
 
   std::size_t num_nodes() const {
     return std::visit([](const auto& nodes) { return nodes.motion.size(); }, nodes_);
