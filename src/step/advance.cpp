@@ -1,6 +1,7 @@
 #include "bough/step/advance.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "bough/motion/vectors_on.hpp"
@@ -149,6 +150,12 @@ void note_whole_end(System& system, const AlphaRule& rule, const State& start, S
                                                                  : state.signals.value[i] - start.signals.value[i];
 }
 
+/// check_shape, unless no element can be past a limit: a relative rotation changes by no more than its two nodes turn.
+std::optional<Trouble> check_shape_after(System& system, const State& start, State& state) {
+  state.shape_margin = start.shape_margin - 2.0 * std::sqrt(noted_most(system));
+  return state.shape_margin > 0.0 ? std::nullopt : check_shape(system, state);
+}
+
 AlphaStep make_rule(System& system, const StepOptions& options, const State& start) {
   return {{make_alpha_coefficients(options.spectral_radius), start.step_size,
            FirstOrderRule(options.spectral_radius, start.step_size)},
@@ -175,9 +182,9 @@ StepReport try_step(System& system, State& state, const State& start, const Step
   if (const auto t = enter(system, state, step, end_time, side)) return fail(*t);
   report = iterate(system, state, options, make_goal(start, options.tolerance), step.rule.slopes(), step);
   if (!report.converged) return report;
-  if (const auto t = check_shape(system, state)) return fail(*t);
   note_end(system, step.rule, start, state);
   note_whole_end(system, step.rule, start, state);
+  if (const auto t = check_shape_after(system, start, state)) return fail(*t);
   system.recover_multipliers(state);
   return report;
 }
@@ -193,10 +200,12 @@ std::optional<Trouble> predict(System& system, State& state, const StepOptions& 
 }
 
 StepReport advance(System& system, State& state, const StepOptions& options, double end_time, laws::Side side) {
+  const double shape_margin = state.shape_margin;
   state.change_all([&](auto& nodes) {
     for (auto* known : {&nodes.algorithmic, &nodes.acceleration_trend, &nodes.trend_change})
       known->arrange(system.node_order());
   });
+  state.shape_margin = shape_margin;  // no node was moved
   State& start = system.work().start;
   std::swap(state, start);
   StepReport report = try_step(system, state, start, options, end_time, side);

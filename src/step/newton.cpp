@@ -140,18 +140,19 @@ std::string describe(System& system, ResidualSize r, double tolerance) {
 namespace {
 
 /// The smallest of the numbers that threads note.
-class FirstBad {
+template <class Number>
+class Smallest {
  public:
-  explicit FirstBad(std::int64_t none) : first_(none) {}
-  void note(std::int64_t id) {
-    std::int64_t known = first_.load(std::memory_order_relaxed);
-    while (id < known && !first_.compare_exchange_weak(known, id, std::memory_order_relaxed)) {
+  explicit Smallest(Number none) : least_(none) {}
+  void note(Number now) {
+    Number known = least_.load(std::memory_order_relaxed);
+    while (now < known && !least_.compare_exchange_weak(known, now, std::memory_order_relaxed)) {
     }
   }
-  std::int64_t get() const { return first_.load(std::memory_order_relaxed); }
+  Number get() const { return least_.load(std::memory_order_relaxed); }
 
  private:
-  std::atomic<std::int64_t> first_;
+  std::atomic<Number> least_;
 };
 
 /// The message on the first element that failed the check; none if `bad` is the number of elements.
@@ -166,20 +167,24 @@ std::optional<Trouble> describe_shape(const System& system, std::int64_t bad) {
 
 }  // namespace
 
-std::optional<Trouble> check_shape(const System& system, const State& state) {
+std::optional<Trouble> check_shape(const System& system, State& state) {
   const plan::Plan& plan = system.plan();
   const auto count = static_cast<std::int64_t>(plan.directory.size());
-  FirstBad first_bad(count);
+  Smallest<std::int64_t> first_bad(count);
+  Smallest<double> least_margin(std::numeric_limits<double>::infinity());
   const auto look = [&]<class G>(const elements::FieldOn<G, double>& f) {
     auto by_element = [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t id = begin; id < end; ++id)
         plan::with_element(plan::arrays_on<G>(plan), plan.directory[static_cast<std::size_t>(id)], [&](const auto& e) {
-          if (elements::is_past_limit(e, f)) first_bad.note(id);
+          const double margin = elements::eval_shape_margin(e, f);
+          least_margin.note(margin);
+          if (margin < 0.0) first_bad.note(id);
         });
     };
     system.walker().for_each_chunk(count, element_grain, tree::make_chunk(by_element));
   };
   state.visit([&]<class G>(const NodesOn<G>&) { look(system.instant().field_on<G>(state)); });
+  state.shape_margin = plan.frames.empty() ? std::max(least_margin.get(), 0.0) : 0.0;  // frames turn as nodes do
   return describe_shape(system, first_bad.get());
 }
 

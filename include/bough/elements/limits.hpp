@@ -1,6 +1,8 @@
 #pragma once
 /// Poses beyond which the formulation of an element does not hold, and what a joint remembers of accepted poses.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "bough/elements/evaluate.hpp"
@@ -25,31 +27,34 @@ Vec2<double> eval_relative_rotation(const E& e, int port, const FieldOn<motion::
 inline double cosine_of(const Mat3<double>& R) { return 0.5 * (R(0, 0) + R(1, 1) + R(2, 2) - 1.0); }
 inline double cosine_of(const Vec2<double>& turn) { return turn[0]; }
 
-/// Whether a beam turns by nearly half a turn over its length, where the logarithm of (1) in README.md is not unique,
-/// or a joint went to its opposite pose, which satisfies the same constraints.
+/// How far an element is from the limits of its shape: cos(angle) - cos(limit), the smallest of all its angles that have
+/// a limit; negative: past it. Since |d cos(a)/da| <= 1, the angle is at least as far from the limit, in rad. The
+/// limits: a beam turns by nearly half a turn over its length, where the logarithm of (1) in README.md is not unique; a
+/// joint goes to its opposite pose, which satisfies the same constraints. Infinite: the element has none.
 template <class E, class F>
-bool is_past_limit(const E&, const F&) {
-  return false;
+double eval_shape_margin(const E&, const F&) {
+  return std::numeric_limits<double>::infinity();
 }
 template <class G, int N>
-bool is_past_limit(const BeamOn<G, N>& e, const FieldOn<G, double>& f) {
-  for (int i = 1; i < N; ++i)
-    if (cosine_of(eval_relative_rotation(e, i, f)) < folded_cosine) return true;
-  return false;
+double eval_shape_margin(const BeamOn<G, N>& e, const FieldOn<G, double>& f) {
+  double cosine = 1.0;
+  for (int i = 1; i < N; ++i) cosine = std::min(cosine, cosine_of(eval_relative_rotation(e, i, f)));
+  return cosine - folded_cosine;
 }
-inline bool is_past_limit(const Joint& e, const Field& f) {
+inline double eval_shape_margin(const Joint& e, const Field& f) {
+  double margin = std::numeric_limits<double>::infinity();
   for (int k = 0; k < e.num_rows; ++k) {
     if (e.rows[k].kind != RowKind::across) continue;
     const bool aligns = aligns_all_axes(e, k);
     if (!aligns && e.rows[k].j != 2) continue;
     const Mat3<double> R = eval_relative_rotation(e, 1, f);
-    if (aligns) return R(0, 0) < 0.0 || R(1, 1) < 0.0 || R(2, 2) < 0.0;
-    if (R(2, 2) < 0.0) return true;
+    margin = std::min(margin, R(2, 2));
+    if (aligns) return std::min({margin, R(0, 0), R(1, 1)});
   }
-  return false;
+  return margin;
 }
-inline bool is_past_limit(const JointOn<motion::Se2>& e, const FieldOn<motion::Se2, double>& f) {
-  return e.has_branch && cosine_of(eval_relative_rotation(e, 1, f)) < 0.0;
+inline double eval_shape_margin(const JointOn<motion::Se2>& e, const FieldOn<motion::Se2, double>& f) {
+  return e.has_branch ? cosine_of(eval_relative_rotation(e, 1, f)) : std::numeric_limits<double>::infinity();
 }
 
 /// Angle of a joint about its axis 3 [rad], on the branch nearest to `turns`, the angle at the last accepted step.

@@ -76,7 +76,8 @@ StepReport advance(System& system, State& state, const StepOptions& options, dou
 StepReport equilibrate(System& system, State& state, const StepOptions& options, double load_factor);
 
 /// Whether joints stayed on their branch (no flipped poses) and relative rotations below pi; else says what happened.
-std::optional<Trouble> check_shape(const System& system, const State& state);
+/// Sets State::shape_margin.
+std::optional<Trouble> check_shape(const System& system, State& state);
 
 /// New counts of turns after an accepted step, for Plan::turning_joints.
 void accept_turns(const System& system, State& state);

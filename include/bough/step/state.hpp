@@ -65,6 +65,9 @@ struct State {
   SignalValues signals;
   /// Angle of each joint at the last accepted step, where it is counted (Plan::turning_joints); else 0 [rad].
   std::vector<double> turns;
+  /// By at least this angle relative rotations may still change before an element can be past a limit of its shape
+  /// (check_shape) [rad]; 0: not known. A change of nodes by anything but a step of generalized-alpha resets it.
+  double shape_margin = 0.0;
 
   std::size_t num_nodes() const {
     return std::visit([](const auto& nodes) { return nodes.motion.size(); }, nodes_);
@@ -79,11 +82,14 @@ struct State {
   /// The same to be changed: what was made of them in space holds no longer.
   template <class G>
   NodesOn<G>& change() {
-    in_space_.nodes.clear();
+    begin_change();
     return std::get<NodesOn<G>>(nodes_);
   }
   /// To be changed by several threads: begin_change() is to be called before, by one.
-  void begin_change() { in_space_.nodes.clear(); }
+  void begin_change() {
+    in_space_.nodes.clear();
+    shape_margin = 0.0;
+  }
   template <class G>
   NodesOn<G>& changing() {
     return std::get<NodesOn<G>>(nodes_);
@@ -95,7 +101,7 @@ struct State {
   }
   template <class F>
   decltype(auto) change_all(F&& f) {
-    in_space_.nodes.clear();
+    begin_change();
     return std::visit(std::forward<F>(f), nodes_);
   }
   /// As many nodes as there are in `like`, on its group, whatever they were.
@@ -109,7 +115,7 @@ struct State {
   /// Takes nodes of any group in place of those that there are.
   template <class G>
   NodesOn<G>& emplace() {
-    in_space_.nodes.clear();
+    begin_change();
     if (!std::holds_alternative<NodesOn<G>>(nodes_)) nodes_.template emplace<NodesOn<G>>();
     return std::get<NodesOn<G>>(nodes_);
   }
