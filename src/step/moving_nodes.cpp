@@ -335,16 +335,14 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_le
                                 NodesOn<G>& state, const NodeOrder& order, std::size_t begin, std::size_t end,
                                 Misses* misses) {
   using Numbers = NodeNumbers<G>;
-  Workspace::StepEnd part;
   const auto size = [arm](const VectorLanes<G>& a) {
     return Pack(lanes::dot(G::linear(a), G::linear(a)) + arm * arm * angular_square<G>(a));
   };
-  const auto largest = [per_length](const VectorLanes<G>& v) {
-    Pack most(0.0);
+  const auto note_largest = [per_length](const VectorLanes<G>& v, Pack& most) {
     for (int i = 0; i < G::dof; ++i)
       most = larger(most, i < G::translations ? Pack(per_length * lanes::abs(v[i])) : lanes::abs(v[i]));
-    return largest_of(most);
   };
+  Pack error(0.0), increment(0.0), of_changes(0.0);
   for (std::size_t k = begin; k < end; ++k) {
     const NodeEight& eight = order.eights()[k];
     VectorLanes<G> rates[3], before[2];  // v, dv/dt and dq
@@ -353,18 +351,15 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_le
     const VectorLanes<G>&trend = start.acceleration_trend.eight(k), &of_trend = start.trend_change.eight(k);
     const VectorLanes<G> change = rates[1] - before[1], of_change = change - trend;
     state.algorithmic.eight(k) = rule.follow(rates[2], before[0], before[1], start.algorithmic.eight(k)).algorithmic;
-    const Pack miss[] = {size(change), size(of_change), size(of_change - of_trend)};
-    for (std::size_t i = 0; i < std::size(miss); ++i)
-      for (int l = 0; l < eight.count; ++l) misses[eight.node[static_cast<std::size_t>(l)]][i] = miss[i][l];
-    part.error =
-        std::max(part.error,
-                 largest(rule.local_error(change, motion::VectorsOn<G>::template bracket<Pack>(rates[0], rates[1]))));
-    part.increment = std::max(part.increment, largest(rates[2]));
-    part.of_change = std::max(part.of_change, largest(of_change));
+    const Pack miss[std::tuple_size_v<Misses>] = {size(change), size(of_change), size(of_change - of_trend)};
+    scatter<std::tuple_size_v<Misses>>(miss, misses, eight);
+    note_largest(rule.local_error(change, motion::VectorsOn<G>::template bracket<Pack>(rates[0], rates[1])), error);
+    note_largest(rates[2], increment);
+    note_largest(of_change, of_changes);
     state.acceleration_trend.eight(k) = change;
     state.trend_change.eight(k) = of_change;
   }
-  return part;
+  return {largest_of(error), largest_of(increment), largest_of(of_changes)};
 }
 
 namespace {
