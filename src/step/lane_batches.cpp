@@ -8,6 +8,25 @@
 
 namespace bough::step {
 
+namespace {
+
+/// Loads of eight nodes what an element looks at: poses, then v and dv/dt where it looks at rates, and dq for the slopes
+/// of these. Other rates are zero.
+template <class G>
+void gather_motions(const elements::NodeMotionOn<G, double>* nodes, const int* at, bool has_rates, bool has_slopes,
+                    elements::NodeMotionOn<G, elements::LanePack>& to) {
+  constexpr int all = elements::numbers_of_node<G>, pose = all - 3 * G::dof;
+  const double* from[elements::num_lanes];
+  for (int l = 0; l < elements::num_lanes; ++l) from[l] = reinterpret_cast<const double*>(nodes + at[l]);
+  auto* const numbers = reinterpret_cast<elements::LanePack*>(&to);
+  if (has_rates && has_slopes) return lanes::gather_lanes(from, all, numbers);
+  if (has_rates) return lanes::gather_lanes(from, all - G::dof, numbers);
+  lanes::gather_lanes(from, pose, numbers);
+  to.v = to.a = decltype(to.v)::zero();
+}
+
+}  // namespace
+
 template <class G>
 template <std::size_t I>
 void LaneBatches<G>::add(const solve::ElementBatch& batch, Slot& slot) {
@@ -225,9 +244,7 @@ void LaneBatches<G>::evaluate_as(const solve::ElementBatch& batch, const Slot& s
   const int* place = places_.data() + slot.places;
   for (int p = 0; p < E::num_ports; ++p, place += wide) {
     if (place[0] == elements::ground) continue;
-    const double* from[wide];
-    for (int l = 0; l < wide; ++l) from[l] = reinterpret_cast<const double*>(field.nodes + place[l]);
-    lanes::gather_lanes(from, elements::numbers_of_node<G>, reinterpret_cast<Pack*>(&nodes[p]));
+    gather_motions(field.nodes, place, looks_at_rates(lane_element), to.want_tangents(), nodes[p]);
   }
   for (int k = 0; k < slot.num_laws; ++k, place += wide) laws[k] = lanes::load_lanes<wide>(field.around.laws, place);
   if constexpr (rows > 0) {
