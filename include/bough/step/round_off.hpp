@@ -28,18 +28,18 @@ class RoundOffMemory {
   int age_ = 0;
 };
 
-/// Estimates sum |K| eps |coordinates|, by force and moment, from the element matrices K now present. They are computed
-/// when one is first asked for and kept until the matrices change.
+/// Estimates sum |K| eps |coordinates|, by force and moment, from the element matrices K now present. Each is computed
+/// when it is first asked for and kept until the matrices change.
 class RoundOff {
  public:
   RoundOff(const plan::Plan& plan, const UnknownPlaces& places, const LinearSolution& linear,
            const ElementEvaluation& elements, const ElementLengths& lengths);
 
   /// What round-off alone leaves in the residual.
-  const ResidualSize& floor() const { return estimates().of_all.size; }
+  const ResidualSize& floor() const;
   /// The same of elements with two or more ports only, which respond to differences of rounded poses. The inertia of a
   /// body responds to the increment of a step, which is rounded much less.
-  const ResidualSize& of_poses() const { return estimates().of_poses.size; }
+  const ResidualSize& of_poses() const;
   /// What iterations of this run could not make smaller.
   RoundOffMemory& met() { return met_; }
   const RoundOffMemory& met() const { return met_; }
@@ -47,23 +47,20 @@ class RoundOff {
  private:
   struct Estimate {
     ResidualSize size;
-    std::vector<double> sums;  ///< by unknown
+    long matrices = -1;  ///< LinearSolution::num_matrices for which it was made
   };
-  struct Estimates {
-    Estimate of_all, of_poses;
-    long matrices = -1;  ///< LinearSolution::num_matrices for which they were made
-  };
-  const Estimates& estimates() const;
-  void add_element(std::size_t element) const;
-  void take_sizes(Estimate& of) const;
+  /// Sums over the elements that count.
+  template <class Counts>
+  const ResidualSize& estimate(Estimate& known, Counts&& counts) const;
 
   const plan::Plan& plan_;
   const UnknownPlaces& places_;
   const LinearSolution& linear_;
   const ElementEvaluation& elements_;
   const ElementLengths& lengths_;
-  mutable Estimates known_;
+  mutable Estimate floor_, of_poses_;
   std::vector<char> is_length_;                 ///< by unknown: a displacement of a node
+  mutable std::vector<double> sums_;            ///< scratch
   mutable std::vector<std::int64_t> unknowns_;  ///< scratch
   RoundOffMemory met_;
 };
