@@ -1,7 +1,6 @@
 #include "make_solver.hpp"
 
 #include <algorithm>
-#include <vector>
 
 #include "bough/step/linear_solution.hpp"
 
@@ -19,16 +18,6 @@ std::unique_ptr<solve::AnySolver> make_monolithic(const plan::Plan& plan, const 
   return std::make_unique<solve::AnySolver>(solve::SparseOracle(plan.graph, tree, other, options));
 }
 
-/// Whether the elements close more loops than one for every 16 of them, as those of lattices do: edges - vertices + 1
-/// of the graph of elements and the blocks that several of them hold.
-bool closes_many_loops(const blocks::BlockGraph& graph) {
-  std::vector<int> holders(graph.block_size.size(), 0);
-  for (int b : graph.element_blocks) ++holders[static_cast<std::size_t>(b)];
-  int loops = 1 - graph.num_elements();
-  for (int count : holders) loops += std::max(0, count - 1);
-  return 16 * loops > graph.num_elements();
-}
-
 }  // namespace
 
 /// Sub-domains are tasks of several threads, or equal ones share lanes. Where one thread visits all, and leaves between
@@ -44,7 +33,7 @@ tree::TreeOptions make_tree_options(const plan::Plan& plan, const scene::Solver&
   });
   const bool is_free =
       given.leaf_size == 0 && given.depth < 0 && given.form == scene::SolverForm::local && !reads_interfaces;
-  if (is_free && plan.took("small") && closes_many_loops(plan.graph)) options.depth = 0;
+  if (is_free && plan.took("small") && tree::closes_many_loops(plan.graph)) options.depth = 0;
   options.in_lockstep = plan.took("lanes");
   return options;
 }

@@ -26,7 +26,8 @@ struct TreeOptions {
                       ///< target_leaf_flops).
   int depth = -1;     ///< levels of sub-domains below the root, >= 0 (0: one sub-domain); -1: determined by leaf_size.
   double target_leaf_flops =
-      1e5;  ///< flops of a leaf when leaf_size is 0: some tens of microseconds, well above the cost of a task.
+      1e5;  ///< flops of a leaf when leaf_size is 0: some tens of microseconds, well above the cost of a task. Graphs
+            ///< with many loops take several times as many.
   bool in_lockstep =
       true;  ///< whether equal leaves are visited eight at a time; leaf sizes that are not given are then chosen to
              ///< allow it.
@@ -112,6 +113,10 @@ struct Tree {
 /// Elements without blocks are assembled with the first front. Preconditions: problems_in(options) is empty; the graph
 /// is consistent (checked by require, O(size)). Deterministic. Allocates.
 Tree make_tree(const blocks::BlockGraph& graph, const TreeOptions& options = {});
+
+/// Whether the elements close more loops than one for every 16 of them, as those of lattices do: edges - vertices + 1
+/// of the graph of elements and the blocks that several of them hold. Leaves between many loops are not alike.
+bool closes_many_loops(const blocks::BlockGraph& graph);
 
 /// Flops of eliminating e of e + b unknowns in a dense front that is not symmetric.
 double elimination_flops(int e, int b);
