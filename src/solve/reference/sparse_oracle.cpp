@@ -16,7 +16,7 @@ namespace {
 
 /// d^2 in scaled variables: refinement contracts by about d^2 per step, and errors along null vectors are eps / d^2;
 /// the value balances both.
-constexpr double regularisation = 1e-7;
+constexpr double sparse_regularisation = 1e-7;
 /// CHOLMOD also refines regular matrices, and must converge for soft constraints: a smaller value and more steps.
 constexpr double cholmod_regularisation = 1e-10;
 constexpr int cholmod_steps = 30;
@@ -179,7 +179,8 @@ FactorStatus SparseOracle::factor(const tree::Walker& /*walker*/) {
     }
     s.regularised = true;
   }
-  const bool factored = s.factor_lowered(s.library == Library::cholmod ? cholmod_regularisation : regularisation);
+  const bool factored =
+      s.factor_lowered(s.library == Library::cholmod ? cholmod_regularisation : sparse_regularisation);
   if (s.library == Library::cholmod && s.sparse.asymmetry() > most_asymmetry) {
     s.status.outcome = FactorOutcome::unsymmetric;
     return s.status;
