@@ -51,7 +51,7 @@ template <>
 constexpr NodeCosts node_costs<motion::Se3>{3.6e-8, 3.2e-8, 8e-8};
 template <int N>
 constexpr NodeCosts node_costs<motion::Translations<N>>{3e-9, 0.0, 1.5e-8};
-constexpr double per_update = 1.4e-7, per_step = 9e-7, per_element_of_step = 1e-8;
+constexpr double per_update = 1.4e-7, per_step = 6e-7, per_element_of_step = 6e-9;
 constexpr NodeCosts node_costs_at_rest{1.6e-7, 0.0, 9e-7};
 constexpr double per_update_at_rest = 3.5e-6;
 
