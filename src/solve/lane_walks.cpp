@@ -183,6 +183,7 @@ void Hierarchical::State::factor_lane_front(int index, double* factor, Transfers
   leave_lanes(index, factor, alone);
 }
 
+/// The block of a move in the matrices of an element or in the Schur complements of a child, in packs.
 Source Hierarchical::State::source_of(const LaneFront& f, const Move& move) {
   if (move.contributor < 0) {
     const LaneElement& element = lanes.elements[at(f.element_begin + ~move.contributor)];

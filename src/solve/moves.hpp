@@ -46,7 +46,8 @@ struct Target {
   std::ptrdiff_t step;  ///< doubles between columns
 };
 
-/// wide: doubles of an entry, and of the rows and columns in the steps of `to`.
+/// Where entry (row, column) of a front is, each of whose entries is `wide` doubles. Leading dimensions of `to` are in
+/// doubles.
 template <int wide>
 Target target_of(const FrontParts& to, int row, int column) {
   const std::ptrdiff_t i = row, j = column, full = to.full;
@@ -119,6 +120,7 @@ class MovePlanner {
   explicit MovePlanner(bool is_symmetric = false) : is_symmetric_(is_symmetric) {}
   /// Begins the lists of a front of `size` unknowns, `eliminated` of which are eliminated there.
   void begin(int size, int eliminated);
+  /// Adds the blocks of its next contributor, numbered as in Move.
   void add(int contributor, std::span<const Run> runs);
   Assembly finish();
   MoveLists take() { return std::move(lists_); }

@@ -10,8 +10,8 @@ namespace bough::step {
 
 namespace {
 
-/// Loads of eight nodes what an element looks at: poses, then v and dv/dt where it looks at rates, and dq for the slopes
-/// of these. Other rates are zero.
+/// Loads what an element reads of eight nodes: poses; v and dv/dt if it reads rates, which are zero otherwise; dq if it
+/// also needs their slopes, which is left as it was otherwise.
 template <class G>
 void gather_motions(const elements::NodeMotionOn<G, double>* nodes, const int* at, bool has_rates, bool has_slopes,
                     elements::NodeMotionOn<G, elements::LanePack>& to) {

@@ -12,9 +12,9 @@ namespace {
 /// Below this many elements a cyclic leaf is ordered by minimum degree alone.
 constexpr std::size_t terminal_elements = 48;
 
-/// Where leaves are not alike, elements fill lanes within a leaf, and a larger one has fewer that are left over. Lattices
-/// in space take 0.85 to 0.9 of the time of a step on two threads with 150 to 400 elements a leaf instead of 36; those in
-/// a plane 0.97 with 600 instead of 290, which would leave too few leaves for many threads.
+/// Where leaves are not alike, elements fill lanes within a leaf, and a larger one has fewer that are left over. With
+/// 150 to 400 elements a leaf instead of 36, lattices in space take 0.85 to 0.9 of the time of a step on two threads.
+/// Those in a plane take 0.97 with 600 instead of 290, which would leave too few leaves for many threads.
 constexpr double more_in_loops = 5.5, largest_in_loops = 300.0, leaves_of_loops = 8.0;
 
 /// Elements of a leaf from the mean cost of an element's elimination: a beam element of n unknowns leaves a front of

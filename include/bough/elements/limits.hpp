@@ -27,10 +27,10 @@ Vec2<double> eval_relative_rotation(const E& e, int port, const FieldOn<motion::
 inline double cosine_of(const Mat3<double>& R) { return 0.5 * (R(0, 0) + R(1, 1) + R(2, 2) - 1.0); }
 inline double cosine_of(const Vec2<double>& turn) { return turn[0]; }
 
-/// How far an element is from the limits of its shape: cos(angle) - cos(limit), the smallest of all its angles that have
-/// a limit; negative: past it. Since |d cos(a)/da| <= 1, the angle is at least as far from the limit, in rad. The
-/// limits: a beam turns by nearly half a turn over its length, where the logarithm of (1) in README.md is not unique; a
-/// joint goes to its opposite pose, which satisfies the same constraints. Infinite: the element has none.
+/// How far an element is from the limits of its shape: the least cos(angle) - cos(limit) of its angles that have a
+/// limit; negative: past it. Since |d cos(a)/da| <= 1, the angle is at least as far from the limit, in rad. Limits: a
+/// beam turns by nearly half a turn over its length, where the logarithm of (1) in README.md is not unique; a joint
+/// goes to its opposite pose, which satisfies the same constraints. Infinite: the element has none.
 template <class E, class F>
 double eval_shape_margin(const E&, const F&) {
   return std::numeric_limits<double>::infinity();
