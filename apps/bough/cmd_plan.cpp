@@ -90,8 +90,8 @@ std::string plan_text(const run::Outlook& o) {
           seconds_text(e.solve_seconds) + ", nodes " + seconds_text(e.other_seconds) + "\n";
   text += "  by " + rounded_text(e.iterations, 2) + " iterations, " + rounded_text(e.evaluations, 2) +
           " evaluations and " + rounded_text(e.factorizations, 2) + " factorizations a step, " +
-          (e.trial_steps > 0 ? "as in the later half of " + std::to_string(e.trial_steps) + " trial steps"
-                             : std::string("as is usual")) +
+          (e.trial_steps > 0 ? "counted and timed over the later half of " + std::to_string(e.trial_steps) + " trial steps"
+                             : std::string("as is usual; times by a model")) +
           "\n";
   text += "a run, " + rounded_text(o.steps, 6) + (o.steps == 1.0 ? " step" : " steps") + ", about " +
           seconds_text(o.steps * e.step_seconds()) + " on one thread\n";
@@ -122,6 +122,7 @@ void write_effort(io::JsonText& json, const run::Effort& e) {
   json.member("solve_s", e.solve_seconds);
   json.member("other_s", e.other_seconds);
   json.member("step_s", e.step_seconds());
+  json.member("model_step_s", e.model_seconds);
   json.member("memory_bytes", static_cast<long long>(e.memory_bytes));
   json.end_object();
 }

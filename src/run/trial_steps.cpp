@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bough/run/simulation.hpp"
+#include "bough/step/cpu_clock.hpp"
 
 namespace bough::run {
 
@@ -13,22 +14,28 @@ std::optional<StepWork> try_steps(const scene::Scene& scene, int steps) {
   trial.output.motion = false;
   trial.expected.clear();
   trial.measures.clear();
-  std::vector<step::WorkCounts> before;  // by accepted step
+  struct Mark {
+    step::WorkCounts counts;
+    double seconds;
+  };
+  std::vector<Mark> before;  // by accepted step
+  step::CpuClock clock(true);
   SimulateOptions options;
   options.before_step = [&](step::System& system, const step::State&, const BeforeStep& step) {
-    before.resize(static_cast<std::size_t>(step.number), system.counts());  // not at further attempts of a step
+    if (before.size() < static_cast<std::size_t>(step.number))  // not at further attempts of a step
+      before.resize(static_cast<std::size_t>(step.number), {system.counts(), clock.now()});
     return step.number <= steps;
   };
   static_cast<void>(Simulation(trial, options).run());  // without the checks of a finished run
   const std::size_t taken = before.empty() ? 0 : before.size() - 1;
   if (taken == 0) return std::nullopt;
-  const step::WorkCounts &begin = before[taken / 2], &end = before.back();
-  const auto per_step = [&](long after, long earlier) {
-    return static_cast<double>(after - earlier) / static_cast<double>(taken - taken / 2);
-  };
+  const auto& [begin, begin_seconds] = before[taken / 2];
+  const auto& [end, end_seconds] = before.back();
+  const auto counted = static_cast<double>(taken - taken / 2);
+  const auto per_step = [&](long after, long earlier) { return static_cast<double>(after - earlier) / counted; };
   return StepWork{per_step(end.solutions, begin.solutions), per_step(end.evaluations, begin.evaluations),
                   per_step(end.factorizations, begin.factorizations), per_step(end.checks, begin.checks),
-                  static_cast<int>(taken)};
+                  (end_seconds - begin_seconds) / counted, static_cast<int>(taken)};
 }
 
 }  // namespace bough::run

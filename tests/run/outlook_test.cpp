@@ -1,4 +1,4 @@
-/// What `bough plan` predicts: the work of a step is counted over trial steps.
+/// What `bough plan` predicts: the work of a step is counted and timed over trial steps.
 #include "bough/run/outlook.hpp"
 
 #include <gtest/gtest.h>
@@ -35,6 +35,7 @@ TEST(TrialSteps, count_the_work_of_the_later_half) {
   EXPECT_EQ(32.0 * work->iterations, static_cast<double>(whole.newton_iterations - half.newton_iterations));
   EXPECT_EQ(32.0 * work->factorizations, static_cast<double>(whole.factorizations - half.factorizations));
   EXPECT_GE(work->evaluations, work->iterations);
+  EXPECT_GT(work->seconds, 0.0);
 }
 
 /// A run that ends before has given as many steps as it had, but for the last, whose work is not seen.
@@ -52,12 +53,16 @@ TEST(Outlook, has_the_counts_of_trial_steps) {
   EXPECT_GT(outlook.effort.trial_steps, 32);
   EXPECT_EQ(outlook.effort.iterations, work->iterations);
   EXPECT_EQ(outlook.effort.factorizations, work->factorizations);
+  const double measured = outlook.effort.step_seconds() / outlook.effort.model_seconds;
+  EXPECT_NE(measured, 1.0) << "the step is as long as measured, not as modelled";
   for (const OutlookDecision& d : outlook.decisions) {
     if (!d.has_saving) continue;
     if (d.decision.name == "reuse")
       EXPECT_GT(d.without.factorizations, 1.9) << "each iteration has a factorization of its own";
     else
       EXPECT_EQ(d.without.iterations, work->iterations) << d.decision.name;
+    if (d.decision.name != "reuse" && d.decision.name != "symmetric")
+      EXPECT_NEAR(d.without.step_seconds() / d.without.model_seconds / measured, 1.0, 1e-12) << d.decision.name;
   }
 }
 
@@ -71,6 +76,7 @@ TEST(Outlook, has_usual_counts_where_the_run_fails) {
   const Outlook outlook = look_ahead(s);
   EXPECT_EQ(outlook.effort.trial_steps, 0);
   EXPECT_GT(outlook.effort.step_seconds(), 0.0);
+  EXPECT_EQ(outlook.effort.step_seconds(), outlook.effort.model_seconds);
 }
 
 }  // namespace

@@ -9,19 +9,21 @@
 
 namespace bough::run {
 
-/// Cost of one step by a model with the costs of one machine (step/step_cost.hpp), without sensors, pictures and files.
-/// On another or a busy machine all seconds are wrong by a common factor.
+/// Cost of one step, without sensors, pictures and files. The whole step is as long as trial steps took on this
+/// machine; a model (step/step_cost.hpp) divides it into parts. Without trial steps the seconds are those of the model,
+/// which has the costs of one machine: on another or a busy machine all of them are wrong by a common factor.
 struct Effort {
   std::int64_t unknowns = 0;
   double factor_flops = 0.0;      ///< of one factorization [flop]
   double factorizations = 0.0;    ///< per step
   double iterations = 0.0;        ///< Newton corrections per step
   double evaluations = 0.0;       ///< of all elements, per step
-  int trial_steps = 0;            ///< from which these numbers were counted; 0: they are usual ones
+  int trial_steps = 0;            ///< from which these numbers and the step's time come; 0: numbers are usual ones
   double evaluate_seconds = 0.0;  ///< elements, residuals and tangents, per step on one thread [s]
   double factor_seconds = 0.0;    ///< the same
   double solve_seconds = 0.0;     ///< the same, with the check of the solution's residual
   double other_seconds = 0.0;     ///< updates of nodes, predictors, balances
+  double model_seconds = 0.0;     ///< the whole step by the model alone [s]
   std::int64_t memory_bytes = 0;  ///< of solver, elements and states
   double step_seconds() const { return evaluate_seconds + factor_seconds + solve_seconds + other_seconds; }
 };
@@ -50,7 +52,8 @@ struct Outlook {
 /// Builds plan, tree and solver of a scene, once as given and once without each decision that can be excluded. Takes up
 /// to 2048 steps of a run, once for all decisions but those that change the iteration; fewer where steps are
 /// long, none where eight would take a second by the model. The numbers of work per step that they give do not depend
-/// on the machine.
+/// on the machine; the seconds do, and vary from call to call. A scene without a decision that leaves the iteration as
+/// it is takes the seconds of the model times the ratio of measured and modelled time of the scene as given.
 /// Precondition: problems_in(scene) is empty.
 Outlook look_ahead(const scene::Scene& scene);
 
