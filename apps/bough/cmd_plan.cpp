@@ -88,11 +88,12 @@ std::string plan_text(const run::Outlook& o) {
           seconds_text(e.evaluate_seconds) + ", factor " + seconds_text(e.factor_seconds) + " (" +
           rounded_text(e.factorizations, 2) + " of " + rounded_text(1e-6 * e.factor_flops, 3) + " Mflop), solve " +
           seconds_text(e.solve_seconds) + ", nodes " + seconds_text(e.other_seconds) + "\n";
-  text += "  by " + rounded_text(e.iterations, 2) + " iterations, " + rounded_text(e.evaluations, 2) +
-          " evaluations and " + rounded_text(e.factorizations, 2) + " factorizations a step, " +
-          (e.trial_steps > 0 ? "counted and timed over the later half of " + std::to_string(e.trial_steps) + " trial steps"
-                             : std::string("as is usual; times by a model")) +
-          "\n";
+  text +=
+      "  by " + rounded_text(e.iterations, 2) + " iterations, " + rounded_text(e.evaluations, 2) + " evaluations and " +
+      rounded_text(e.factorizations, 2) + " factorizations a step, " +
+      (e.trial_steps > 0 ? "counted and timed over the later half of " + std::to_string(e.trial_steps) + " trial steps"
+                         : std::string("as is usual; times by a model")) +
+      "\n";
   text += "a run, " + rounded_text(o.steps, 6) + (o.steps == 1.0 ? " step" : " steps") + ", about " +
           seconds_text(o.steps * e.step_seconds()) + " on one thread\n";
   text += "memory, about " + bytes_text(static_cast<double>(o.process_bytes)) + ", of which " +

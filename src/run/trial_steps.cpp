@@ -33,9 +33,12 @@ std::optional<StepWork> try_steps(const scene::Scene& scene, int steps) {
   const auto& [end, end_seconds] = before.back();
   const auto counted = static_cast<double>(taken - taken / 2);
   const auto per_step = [&](long after, long earlier) { return static_cast<double>(after - earlier) / counted; };
-  return StepWork{per_step(end.solutions, begin.solutions), per_step(end.evaluations, begin.evaluations),
-                  per_step(end.factorizations, begin.factorizations), per_step(end.checks, begin.checks),
-                  (end_seconds - begin_seconds) / counted, static_cast<int>(taken)};
+  return StepWork{per_step(end.solutions, begin.solutions),
+                  per_step(end.evaluations, begin.evaluations),
+                  per_step(end.factorizations, begin.factorizations),
+                  per_step(end.checks, begin.checks),
+                  (end_seconds - begin_seconds) / counted,
+                  static_cast<int>(taken)};
 }
 
 }  // namespace bough::run
