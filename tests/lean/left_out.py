@@ -95,10 +95,13 @@ class Source:
         self.texts, self.owners, self.paths = {}, {}, {}
 
     def relative(self, file):
-        """Path below the root, or None for files of others."""
+        """Path below the root, or None for files of others. A compiler cache makes names relative to the folder of the compilation, and
+        gives objects to other trees too: what follows the last "../" of a name is then the path below any of these roots."""
         if file not in self.paths:
             path = os.path.realpath(file)
-            own = os.path.isabs(file) and path.startswith(self.root + "/") and os.path.isfile(path)
+            if not path.startswith(self.root + "/"):
+                path = os.path.join(self.root, file.rpartition("../")[2])
+            own = path.startswith(self.root + "/") and os.path.isfile(path)
             self.paths[file] = os.path.relpath(path, self.root) if own else None
         return self.paths[file]
 
