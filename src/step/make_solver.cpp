@@ -33,7 +33,7 @@ tree::TreeOptions make_tree_options(const plan::Plan& plan, const scene::Solver&
   });
   const bool is_free =
       given.leaf_size == 0 && given.depth < 0 && given.form == scene::SolverForm::local && !reads_interfaces;
-  if (is_free && plan.took("small") && tree::closes_many_loops(plan.graph)) options.depth = 0;
+  options.loops_in_one = is_free && plan.took("small");
   options.in_lockstep = plan.took("lanes");
   return options;
 }

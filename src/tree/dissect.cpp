@@ -17,15 +17,26 @@ constexpr std::size_t terminal_elements = 48;
 /// Those in a plane take 0.97 with 600 instead of 290, which would leave too few leaves for many threads.
 constexpr double more_in_loops = 5.5, largest_in_loops = 300.0, leaves_of_loops = 8.0;
 
+/// Whether the elements close more loops than one for every 16 of them, as those of lattices do: edges - vertices + 1
+/// of the graph of elements and the blocks that several of them hold. Leaves between many loops are not alike.
+bool closes_many_loops(const blocks::BlockGraph& graph) {
+  std::vector<int> holders(graph.block_size.size(), 0);
+  for (int b : graph.element_blocks) ++holders[static_cast<std::size_t>(b)];
+  int loops = 1 - graph.num_elements();
+  for (int count : holders) loops += std::max(0, count - 1);
+  return 16 * loops > graph.num_elements();
+}
+
 /// Elements of a leaf from the mean cost of an element's elimination: a beam element of n unknowns leaves a front of
 /// 1.5 n with n/2 eliminated, about 1.6 n^3 flops.
-std::size_t choose_leaf_size(const Adjacency& adjacency, const std::vector<int>& elements, const TreeOptions& options) {
+std::size_t choose_leaf_size(const Adjacency& adjacency, const std::vector<int>& elements, const TreeOptions& options,
+                             bool many_loops) {
   const auto count = static_cast<double>(elements.size());
   double flops = 0.0;
   for (int e : elements) flops += 1.6 * std::pow(adjacency.unknowns_of(e), 3.0);
   const double mean = count > 0.0 ? std::max(1.0, flops / count) : 1.0;
   constexpr double least = 4.0, largest = 4096.0;
-  if (closes_many_loops(*adjacency.graph))
+  if (many_loops)
     return static_cast<std::size_t>(std::clamp(more_in_loops * options.target_leaf_flops / mean, least,
                                                std::clamp(count / leaves_of_loops, least, largest_in_loops)));
   // At least two groups of eight leaves in lockstep, if there are enough elements.
@@ -37,11 +48,13 @@ class Recursion {
  public:
   Recursion(const Adjacency& adjacency, const std::vector<int>& elements, const TreeOptions& options)
       : bisector_(adjacency, options.seed), depth_(options.depth) {
-    if (options.leaf_size > 0) {
-      leaf_size_ = static_cast<std::size_t>(options.leaf_size);
-    } else {
-      leaf_size_ = options.depth >= 0 ? 1 : choose_leaf_size(adjacency, elements, options);
-    }
+    if (options.leaf_size > 0) leaf_size_ = static_cast<std::size_t>(options.leaf_size);
+    if (options.leaf_size > 0 || options.depth >= 0) return;
+    const bool many_loops = closes_many_loops(*adjacency.graph);
+    if (many_loops && options.loops_in_one)
+      depth_ = 0;
+    else
+      leaf_size_ = choose_leaf_size(adjacency, elements, options, many_loops);
   }
 
   int run(std::vector<int> elements, int level, bool upper) {
@@ -76,14 +89,6 @@ class Recursion {
 };
 
 }  // namespace
-
-bool closes_many_loops(const blocks::BlockGraph& graph) {
-  std::vector<int> holders(graph.block_size.size(), 0);
-  for (int b : graph.element_blocks) ++holders[static_cast<std::size_t>(b)];
-  int loops = 1 - graph.num_elements();
-  for (int count : holders) loops += std::max(0, count - 1);
-  return 16 * loops > graph.num_elements();
-}
 
 Dissection dissect(const Adjacency& adjacency, const TreeOptions& options) {
   std::vector<int> all;

@@ -31,6 +31,8 @@ struct TreeOptions {
   bool in_lockstep =
       true;  ///< whether equal leaves are visited eight at a time; leaf sizes that are not given are then chosen to
              ///< allow it.
+  bool loops_in_one = false;  ///< whether elements that close many loops are one sub-domain, if neither leaf_size nor
+                              ///< depth is given.
   unsigned seed = 1;  ///< seed of the general partitioner; the tree is a function of the graph and these options alone.
 };
 
@@ -113,10 +115,6 @@ struct Tree {
 /// Elements without blocks are assembled with the first front. Preconditions: problems_in(options) is empty; the graph
 /// is consistent (checked by require, O(size)). Deterministic. Allocates.
 Tree make_tree(const blocks::BlockGraph& graph, const TreeOptions& options = {});
-
-/// Whether the elements close more loops than one for every 16 of them, as those of lattices do: edges - vertices + 1
-/// of the graph of elements and the blocks that several of them hold. Leaves between many loops are not alike.
-bool closes_many_loops(const blocks::BlockGraph& graph);
 
 /// Flops of eliminating e of e + b unknowns in a dense front that is not symmetric.
 double elimination_flops(int e, int b);
