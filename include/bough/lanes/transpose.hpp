@@ -228,12 +228,11 @@ BOUGH_INLINE void scatter_by_eights(const Pack<W>* from, int count, const Row& r
 /// Lane l of to[i] <- from[l][i] for i < count.
 template <int W>
 BOUGH_INLINE void gather_lanes(const double* const (&from)[W], int count, Pack<W>* to) {
-  constexpr int side = Pack<W>::chunk;
 #if BOUGH_REGISTER_DOUBLES >= 8
-  if constexpr (side == 8) return detail::gather_by_eights<W>([&from](int l) { return from[l]; }, count, to);
+  if constexpr (Pack<W>::chunk == 8) return detail::gather_by_eights<W>([&from](int l) { return from[l]; }, count, to);
 #endif
 #if BOUGH_REGISTER_DOUBLES >= 4
-  if constexpr (side == 4) return detail::gather_by_fours(from, count, to);
+  if constexpr (Pack<W>::chunk == 4) return detail::gather_by_fours(from, count, to);
 #endif
   for (int i = 0; i < count; ++i)
     for (int l = 0; l < W; ++l) to[i].set(l, from[l][i]);
@@ -242,12 +241,11 @@ BOUGH_INLINE void gather_lanes(const double* const (&from)[W], int count, Pack<W
 /// to[l][i] <- lane l of from[i] for i < count; the arrays must not overlap.
 template <int W>
 BOUGH_INLINE void scatter_lanes(const Pack<W>* from, int count, double* const (&to)[W]) {
-  constexpr int side = Pack<W>::chunk;
 #if BOUGH_REGISTER_DOUBLES >= 8
-  if constexpr (side == 8) return detail::scatter_by_eights<W>(from, count, [&to](int l) { return to[l]; });
+  if constexpr (Pack<W>::chunk == 8) return detail::scatter_by_eights<W>(from, count, [&to](int l) { return to[l]; });
 #endif
 #if BOUGH_REGISTER_DOUBLES >= 4
-  if constexpr (side == 4)
+  if constexpr (Pack<W>::chunk == 4)
     if (count >= 4) return detail::scatter_by_fours(from, count, to);
 #endif
   for (int i = 0; i < count; ++i)
