@@ -37,15 +37,8 @@ void eval_residual_at(const E& e, const Field& field, const double* multipliers,
   }
   std::array<double, most * most> K;
   elements::evaluate(e, field, multipliers, turns, residual, K.data());
-  const auto n = static_cast<std::size_t>(elements::num_unknowns(e));
-  std::size_t column = 0;
-  for (const Port& port : e.ports) {
-    if (port.node == elements::ground) continue;
-    const Vec6<double>& eta = state.unsettled[static_cast<std::size_t>(port.node)];
-    for (std::size_t i = 0; i < n; ++i)
-      for (int j = 0; j < 6; ++j) residual[i] += K[i * n + column + static_cast<std::size_t>(j)] * eta[j];
-    column += 6;
-  }
+  const auto lacking = [&](int node) { return state.unsettled[static_cast<std::size_t>(node)]; };
+  elements::add_tangent_times(e, K.data(), 0, elements::num_unknowns(e), lacking, residual);
 }
 
 }  // namespace

@@ -41,25 +41,6 @@ void HeldNodes::balance(std::size_t held, Vec6<double> forces, AddForces&& add_f
   }
 }
 
-namespace {
-
-/// Adds the rows of K eta that belong to the element's node `part`. K is the element's tangent with six unknowns per
-/// node; increment(node) returns eta.
-template <class E, class Increment>
-void add_product(const E& e, const double* K, int part, Increment&& increment, Vec6<double>& to) {
-  const int n = elements::num_unknowns(e);
-  int column = 0;
-  for (const elements::Port& port : e.ports) {
-    if (port.node == elements::ground) continue;
-    const Vec6<double> eta = increment(port.node);
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 6; ++j) to[i] += K[(6 * part + i) * n + column + j] * eta[j];
-    column += 6;
-  }
-}
-
-}  // namespace
-
 template <class G>
 void HeldNodes::recover_on(const elements::FieldOn<G, double>& field, const tree::Walker& walker, State& state,
                            const Vec6List* more) const {
@@ -77,7 +58,7 @@ void HeldNodes::recover_on(const elements::FieldOn<G, double>& field, const tree
         elements::evaluate(e, field, multipliers, turns, residual.data(), is_settled ? nullptr : tangent.data());
         for (int i = 0; i < 6; ++i) forces[i] += residual[static_cast<std::size_t>(6 * use.part + i)];
         const auto lacking = [&](int other) { return state.unsettled[static_cast<std::size_t>(other)]; };
-        if (!is_settled) add_product(e, tangent.data(), use.part, lacking, forces);
+        if (!is_settled) elements::add_tangent_times(e, tangent.data(), 6 * use.part, 6, lacking, forces.v);
       } else {
         elements::evaluate(e, field, multipliers, turns, residual.data(), nullptr);
         forces += plan_.unknowns.expanded(residual.data() + G::dof * use.part, static_cast<std::size_t>(node));
@@ -118,8 +99,8 @@ double HeldNodes::largest_impulse(const Instant& instant, const UnknownPlaces& p
     plan::with_element(plan_.elements, plan_.directory[use.element], [&](const auto& e) {
       elements::evaluate(e, field, joint == nullptr ? nullptr : state.multipliers.data() + joint->multiplier_begin,
                          j < 0 ? 0.0 : state.turns[static_cast<std::size_t>(j)], residual.data(), tangent.data());
-      add_product(
-          e, tangent.data(), use.part, [&](int node) { return places.node_part(x, node); }, forces);
+      elements::add_tangent_times(
+          e, tangent.data(), 6 * use.part, 6, [&](int node) { return places.node_part(x, node); }, forces.v);
       if (joint == nullptr || joint->block < 0) return;
       const int n = elements::num_unknowns(e), first_row = n - elements::num_multipliers(e);
       for (std::size_t k = 0; k < joint->rows.size(); ++k)

@@ -130,6 +130,20 @@ template <class E>
 void evaluate(const E& e, const FieldOn<typename E::Group, double>& field, const double* multipliers, double turns,
               double* residual, double* tangent);
 
+/// Adds `count` rows of K eta from `row` on to `to`. K: tangent of an element in space; increment(node) returns eta.
+template <class E, class Increment>
+void add_tangent_times(const E& e, const double* K, int row, int count, Increment&& increment, double* to) {
+  const int n = num_unknowns(e);
+  int column = 0;
+  for (const Port& port : e.ports) {
+    if (port.node == ground) continue;
+    const Vec6<double> eta = increment(port.node);
+    for (int i = 0; i < count; ++i)
+      for (int j = 0; j < 6; ++j) to[i] += K[(row + i) * n + column + j] * eta[j];
+    column += 6;
+  }
+}
+
 /// Sum of the magnitudes of the terms in each entry of a residual: the scale of its round-off and of the test for
 /// convergence. Elements between nodes contribute their forces on each node. The terms of a body balance within the
 /// element and are added separately: |M a| + |M g| + |ad(v)^T M v|.
