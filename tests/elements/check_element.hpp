@@ -4,6 +4,8 @@
 #include <complex>
 #include <vector>
 
+#include "bough/elements/energies.hpp"
+#include "elements/beam_energy.hpp"
 #include "elements/samples.hpp"
 
 namespace bough::elements::check {
@@ -81,6 +83,8 @@ S energy_of(const E& e, const PortMotion<S>* p, double turns, const S* laws) {
     return eval_strain_energy(e, p, turns);
   else if constexpr (requires { eval_strain_energy(e, p, laws); })
     return eval_strain_energy(e, p, laws);
+  else if constexpr (requires { strain_energy_of(e, p); })
+    return strain_energy_of(e, p);
   else
     return eval_strain_energy(e, p);
 }

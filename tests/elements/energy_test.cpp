@@ -1,6 +1,7 @@
 /// Residuals as derivatives of energies: elasticity from the strain energy, inertia from the kinetic energy.
 #include <gtest/gtest.h>
 
+#include "bough/elements/energies.hpp"
 #include "bough/lanes/jet.hpp"
 #include "elements/check_element.hpp"
 
@@ -44,6 +45,26 @@ TEST(ElementEnergy, static_residual_of_a_beam_is_the_derivative_of_its_strain_en
   }
 }
 
+/// Energies as they are reported, of a beam that moves.
+template <int N>
+void expect_energies(const Sample<Beam<N>>& s) {
+  SCOPED_TRACE(s.name);
+  const motion::Vec3Pair anchor = anchor_of(s.element, s.nodes.data());
+  const auto p = ports_of(s.element, states_of<double>(s.nodes, anchor), anchor.hi);
+  const Energies got = eval_energies(s.element, s.field(true), 0.0);
+  const double strain = strain_energy_of(s.element, p.data()), kinetic = kinetic_energy_of(s.element, p.data());
+  EXPECT_NEAR(got.strain, strain, exact * strain);
+  EXPECT_NEAR(got.kinetic, kinetic, exact * kinetic);
+}
+
+TEST(ElementEnergy, of_a_beam_is_that_of_its_sections) {
+  for (const Ends ends : {Ends::plain, Ends::offset, Ends::grounded}) {
+    expect_energies(beam_sample<2>(ends, true));
+    expect_energies(beam_sample<3>(ends, true));
+    expect_energies(beam_sample<4>(ends, true));
+  }
+}
+
 TEST(ElementEnergy, static_residual_of_springs_bushings_and_joint_springs_is_the_derivative_of_their_energy) {
   for_all_couplings([](const auto& s) { expect_conservative(s); });
   for (const Ends ends : {Ends::plain, Ends::offset, Ends::grounded}) {
@@ -62,7 +83,7 @@ TEST(ElementEnergy, stress_free_shape_has_neither_energy_nor_forces) {
     for (const NodeMotion& n : s.nodes) poses.push_back({n.R, n.x.hi});
     set_reference(s.element, still(poses).data());
     EXPECT_LE(largest(residual_of(s, s.field(false))), 1e-14 * N);
-    EXPECT_LE(eval_strain_energy(s.element, still(poses).data()), 1e-28);
+    EXPECT_LE(strain_energy_of(s.element, still(poses).data()), 1e-28);
   };
   check(beam_sample<2>(Ends::plain));
   check(beam_sample<3>(Ends::plain));
@@ -103,8 +124,8 @@ std::vector<double> euler_poincare(const E& e, const std::vector<PortMotion<doub
     }
     displaced[k].H = motion::compose(displaced[k].H, motion::exp_se3(eta));
   }
-  const T along = eval_kinetic_energy(e, moving);
-  const J across = eval_kinetic_energy(e, displaced);
+  const T along = kinetic_energy_of(e, moving);
+  const J across = kinetic_energy_of(e, displaced);
   std::vector<double> r;
   for (int k = 0; k < P; ++k) {
     Vec6<double> momentum;
@@ -141,7 +162,7 @@ void expect_consistent_inertia(const Sample<E>& given) {
       scale += std::abs(forces[6 * k + static_cast<std::size_t>(i)] * p[k].v[i]);
     }
   }
-  EXPECT_NEAR(power, eval_kinetic_energy(s.element, moving.data()).c[1], exact * scale);
+  EXPECT_NEAR(power, kinetic_energy_of(s.element, moving.data()).c[1], exact * scale);
 }
 
 TEST(ElementEnergy, inertia_forces_are_those_of_the_kinetic_energy) {

@@ -20,14 +20,14 @@ S potential_of(const Mat6<double>& mass, double w, const Frame<S>& H, const Vec3
 
 template <class S>
 S lagrangian_of(const RigidBody& e, const PortMotion<S>* p, const Surroundings<S>& around) {
-  return eval_kinetic_energy(e, p) - potential_of<S>(e.mass, 1.0, p[0].H, around.gravity);
+  return kinetic_energy_of(e, p) - potential_of<S>(e.mass, 1.0, p[0].H, around.gravity);
 }
 template <class S, int N>
 S lagrangian_of(const Beam<N>& e, const PortMotion<S>* p, const Surroundings<S>& around) {
   const BeamShape<S, N> b = eval_shape<S, N>(p);
   Vec6<S> rate[N];
   eval_shape_rates<S, N>(b, p, rate);
-  S sum = eval_kinetic_energy(e, p) - eval_strain_energy(e, p);
+  S sum = kinetic_energy_of(e, p) - strain_energy_of(e, p);
   const auto& rule = strain_rule<N>();
   for (int g = 0; g < Beam<N>::num_strain_points; ++g) {  // rates of strain, L e' = T y' + (T along d') y
     const auto T = motion::tangent_operator(blend<S, N>(rule.shape[g], b.d));
@@ -37,7 +37,7 @@ S lagrangian_of(const Beam<N>& e, const PortMotion<S>* p, const Surroundings<S>&
   }
   const PortMotion<S>& r = p[Beam<N>::reference];
   for (int g = 0; g < N; ++g) {
-    const auto m = eval_section<S, N>(mass_rule<N>().shape[g], b, nullptr, nullptr, r);
+    const auto m = section_at<S, N>(mass_rule<N>().shape[g], b, rate, p);
     sum = sum - potential_of<S>(e.mass, mass_rule<N>().weight[g] * e.length, motion::compose(r.H, m.relative),
                                 around.gravity);
   }

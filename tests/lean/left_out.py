@@ -29,7 +29,7 @@ class Feature:
 
 
 VIOLATIONS = " constraint_violation constraint_violations relative_violation largest_violation evaluate_constraint_rates "
-CHECKS = VIOLATIONS + "check measure measure_beam measure_load measure_coupling eval_energies eval_energies_lanes energies_of add_energies eval_strain_energy eval_kinetic_energy"
+CHECKS = VIOLATIONS + "check measure measure_beam measure_load measure_coupling eval_energies eval_energies_lanes energies_of add_energies eval_strain_energy"
 JOINTS = Feature(
     functions="""eval_row eval_angle eval_axial_angle axial_moment axial_slope cosine_slope eval_coordinate eval_turning_coordinate eval_distance eval_effort
         eval_gradient_slope add_effort_slopes eval_joint_coordinate add_efforts evaluate_constraint_series constraint_series add_multipliers for_each_multiplier

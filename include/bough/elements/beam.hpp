@@ -149,14 +149,12 @@ SectionMotion<S> eval_section(const double* shape, const BeamShape<S, N>& b, con
   m.d = blend<S, N>(shape, b.d);
   m.T = motion::tangent_operator(m.d);
   m.relative = motion::exp_se3(m.T);
-  if (rate == nullptr) return m;
   const Vec6<S> d1 = blend<S, N>(shape, rate);
   const Vec6<S> carried = motion::inverse_adjoint_times(m.relative, r.v);
   const Vec6<S> own = m.T.times(d1);
   m.v = carried + own;
-  if (rate2 != nullptr)
-    m.a = motion::inverse_adjoint_times(m.relative, r.a) - motion::cross6_times(own, carried) +
-          m.T.times(blend<S, N>(shape, rate2)) + m.T.slope_times(d1, d1);
+  m.a = motion::inverse_adjoint_times(m.relative, r.a) - motion::cross6_times(own, carried) +
+        m.T.times(blend<S, N>(shape, rate2)) + m.T.slope_times(d1, d1);
   return m;
 }
 
@@ -175,38 +173,6 @@ void eval_shape_accelerations(const BeamShape<S, N>& b, const PortMotion<S>* p, 
                                   motion::cross6_times(own, carried) -
                                   motion::tangent_operator(b.d[i]).slope_times(rate[i], rate[i]));
   }
-}
-
-/// Strain energy [J].
-template <class S, int N, class C>
-S eval_strain_energy(const Beam<N, C>& beam, const BeamShape<S, N>& b) {
-  S sum(0.0);
-  for (int g = 0; g < Beam<N>::num_strain_points; ++g) {
-    Vec6<S> e = eval_strain<S, N>(b, beam.length, g);
-    for (int k = 0; k < 6; ++k) e[k] = e[k] - beam.reference_strain[g][k];
-    sum = sum + (0.5 * strain_rule<N>().weight[g] * beam.length) * lanes::dot(e, Vec6<S>(beam.stiffness * e));
-  }
-  return sum;
-}
-
-template <class S, int N>
-S eval_strain_energy(const Beam<N>& beam, const PortMotion<S>* ports) {
-  return eval_strain_energy<S, N>(beam, eval_shape<S, N>(ports));
-}
-
-/// Kinetic energy [J].
-template <class S, int N>
-S eval_kinetic_energy(const Beam<N>& beam, const PortMotion<S>* ports) {
-  const BeamShape<S, N> b = eval_shape<S, N>(ports);
-  Vec6<S> rate[N];
-  eval_shape_rates<S, N>(b, ports, rate);
-  const auto& rule = mass_rule<N>();
-  S sum(0.0);
-  for (int g = 0; g < Beam<N>::num_mass_points; ++g) {
-    const SectionMotion<S> m = eval_section<S, N>(rule.shape[g], b, rate, nullptr, ports[Beam<N>::reference]);
-    sum = sum + (0.5 * rule.weight[g] * beam.length) * lanes::dot(m.v, Vec6<S>(beam.mass * m.v));
-  }
-  return sum;
 }
 
 /// Fills length and stress-free strains from the reference poses of the ports (relative to any anchor).

@@ -70,12 +70,6 @@ BOUGH_INLINE void eval_residual(const RigidBodyOn<G, C>& body, const PortMotionO
   G::put(G::subtract_dual_bracket(f, v, G::matrix_times(body.mass, v)), out);
 }
 
-template <class G, class S, class C>
-S eval_kinetic_energy(const RigidBodyOn<G, C>& body, const PortMotionOn<G, S>* p) {
-  const typename G::template Vector<S> momentum = body.mass * p[0].v;
-  return 0.5 * lanes::dot(p[0].v, momentum);
-}
-
 /// Force and moment at a port, dead (inertial axes) or following the port; times a law.
 template <class G, class C = double>
 struct PointLoadOn {
