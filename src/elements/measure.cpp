@@ -1,37 +1,20 @@
-#include "bough/elements/energies.hpp"
+#include "bough/elements/beam_forces.hpp"
 #include "ports_from_inertial.hpp"
 
 namespace bough::elements {
 
 namespace {
 
-double power(const Vec6<double>& wrench, const Vec6<double>& twist) { return lanes::dot(wrench, twist); }
-
-/// Energies, and the resultant of gravity.
-template <class E>
-Measures begin_measures(const E& e, const Field& field, double turns) {
-  const Energies energies = eval_energies(e, field, turns);
-  const Vec3<double>& g = field.around.gravity;
-  Measures m;
-  m.kinetic = energies.kinetic;
-  m.strain = energies.strain;
-  m.momentum = energies.momentum;
-  m.potential = -lanes::dot(g, energies.mass_moment);
-  m.load = lanes::join(energies.mass * g, lanes::cross(energies.mass_moment, g));
-  return m;
+/// Force in the residual at a port, in the axes of the frame in which nodes are described.
+Vec3<double> port_force(const PortMotion<double>* p, const double* out, int port) {
+  return p[port].H.R * Vec3<double>{{out[6 * port], out[6 * port + 1], out[6 * port + 2]}};
 }
 
-/// Reactions of the ground on the structure through an element, from its residual at the ports.
+/// Adds the reactions of the ground on the structure through an element, which are its residual there.
 template <class E>
-void add_ground_reaction(const E& e, const PortMotion<double>* p, const Vec3<double>& anchor, const double* out,
-                         Measures& m) {
-  for (int k = 0; k < E::num_ports; ++k) {
-    if (e.ports[k].node != ground) continue;
-    Vec6<double> f;
-    for (int i = 0; i < 6; ++i) f[i] = out[6 * k + i];
-    m.load += to_inertial(p[k], anchor, f);  // a residual at the ground is the reaction of the ground
-    m.work_rate += power(f, p[k].v);         // 0 if the ground is at rest
-  }
+void add_ground_reaction(const E& e, const PortMotion<double>* p, const double* out, Measures& m) {
+  for (int k = 0; k < E::num_ports; ++k)
+    if (e.ports[k].node == ground) m.force += port_force(p, out, k);
 }
 
 template <class E>
@@ -42,25 +25,19 @@ Measures measure_load(const E& e, const Field& field) {
   double out[6 * E::num_ports];
   eval_residual(e, p, field.around, out);
   Measures m;
-  for (int k = 0; k < E::num_ports; ++k) {
-    Vec6<double> f;
-    for (int i = 0; i < 6; ++i) f[i] = -out[6 * k + i];
-    if (field.around.has_inertia) m.work_rate += power(f, p[k].v);
-    m.load += to_inertial(p[k], anchor, f);
-  }
-  add_ground_reaction(e, p, anchor, out, m);
+  for (int k = 0; k < E::num_ports; ++k) m.force -= port_force(p, out, k);
+  add_ground_reaction(e, p, out, m);
   return m;
 }
 
 template <class E>
-Measures measure_coupling(const E& e, const Field& field, bool with_energies) {
+Measures measure_coupling(const E& e, const Field& field) {
   PortMotion<double> p[2];
   Vec3<double> anchor;
   eval_ports_from_inertial(e, field, p, anchor);
   double out[12], elastic[12];
   eval_residual(e, p, field.around, out);
   Measures m;
-  if (with_energies) m = begin_measures(e, field, 0.0);
   if (field.around.has_inertia) {
     Surroundings<double> still = field.around;
     still.has_inertia = false;
@@ -69,29 +46,25 @@ Measures measure_coupling(const E& e, const Field& field, bool with_energies) {
   }
   if constexpr (requires { eval_energy_by_factor(e, p); })
     if (stiffness_law(e) >= 0) m.strain_by_law = eval_energy_by_factor(e, p);
-  add_ground_reaction(e, p, anchor, out, m);
+  add_ground_reaction(e, p, out, m);
   return m;
 }
 
-/// Contribution of the ground to an element whose residual is not evaluated otherwise.
+/// The same of an element whose residual is needed for nothing else.
 template <class E>
-void add_ground_reaction_if_any(const E& e, const PortMotion<double>* p, const Vec3<double>& anchor, const Field& field,
-                                Measures& m) {
-  bool grounded = false;
-  for (const Port& port : e.ports) grounded = grounded || port.node == ground;
-  if (!grounded) return;
+void add_ground_reaction(const E& e, const PortMotion<double>* p, const Field& field, Measures& m) {
+  if (!holds_on_to_ground(e)) return;
   double out[6 * E::num_ports];
   eval_residual(e, p, field.around, out);
-  add_ground_reaction(e, p, anchor, out, m);
+  add_ground_reaction(e, p, out, m);
 }
 
 template <int N>
-Measures measure_beam(const Beam<N>& beam, const Field& field, bool with_energies) {
+Measures measure_beam(const Beam<N>& beam, const Field& field) {
   PortMotion<double> p[N];
   Vec3<double> anchor;
   eval_ports_from_inertial(beam, field, p, anchor);
   Measures m;
-  if (with_energies) m = begin_measures(beam, field, 0.0);
   if (field.around.has_inertia && beam.has_damping) {
     using G = motion::Se3;
     BeamRates<G, double, N> rates;
@@ -102,84 +75,77 @@ Measures measure_beam(const Beam<N>& beam, const Field& field, bool with_energie
     for (int i = 0; i < N; ++i)
       if (i != Beam<N>::reference) m.dissipation_rate += G::real_power(viscous[i] - elastic[i], rates.rate[i]);
   }
-  add_ground_reaction_if_any(beam, p, anchor, field, m);
+  add_ground_reaction(beam, p, field, m);
   return m;
 }
 
 }  // namespace
 
 template <>
-Measures measure(const Beam<2>& e, const Field& field, const double*, double, bool with_energies) {
-  return measure_beam(e, field, with_energies);
+Measures measure(const Beam<2>& e, const Field& field, const double*, double) {
+  return measure_beam(e, field);
 }
 template <>
-Measures measure(const Beam<3>& e, const Field& field, const double*, double, bool with_energies) {
-  return measure_beam(e, field, with_energies);
+Measures measure(const Beam<3>& e, const Field& field, const double*, double) {
+  return measure_beam(e, field);
 }
 template <>
-Measures measure(const Beam<4>& e, const Field& field, const double*, double, bool with_energies) {
-  return measure_beam(e, field, with_energies);
+Measures measure(const Beam<4>& e, const Field& field, const double*, double) {
+  return measure_beam(e, field);
 }
 template <>
-Measures measure(const LineLoad<2>& e, const Field& field, const double*, double, bool) {
+Measures measure(const LineLoad<2>& e, const Field& field, const double*, double) {
   return measure_load(e, field);
 }
 template <>
-Measures measure(const LineLoad<3>& e, const Field& field, const double*, double, bool) {
+Measures measure(const LineLoad<3>& e, const Field& field, const double*, double) {
   return measure_load(e, field);
 }
 template <>
-Measures measure(const LineLoad<4>& e, const Field& field, const double*, double, bool) {
+Measures measure(const LineLoad<4>& e, const Field& field, const double*, double) {
   return measure_load(e, field);
 }
 template <>
-Measures measure(const PointLoad& e, const Field& field, const double*, double, bool) {
+Measures measure(const PointLoad& e, const Field& field, const double*, double) {
   return measure_load(e, field);
 }
 template <>
-Measures measure(const Spring& e, const Field& field, const double*, double, bool with_energies) {
-  return measure_coupling(e, field, with_energies);
+Measures measure(const Spring& e, const Field& field, const double*, double) {
+  return measure_coupling(e, field);
 }
 template <>
-Measures measure(const Bushing& e, const Field& field, const double*, double, bool with_energies) {
-  return measure_coupling(e, field, with_energies);
+Measures measure(const Bushing& e, const Field& field, const double*, double) {
+  return measure_coupling(e, field);
 }
 template <>
-Measures measure(const RigidBody& e, const Field& field, const double*, double, bool with_energies) {
+Measures measure(const RigidBody& e, const Field& field, const double*, double) {
   PortMotion<double> p[1];
   Vec3<double> anchor;
   eval_ports_from_inertial(e, field, p, anchor);
   Measures m;
-  if (with_energies) m = begin_measures(e, field, 0.0);
-  add_ground_reaction_if_any(e, p, anchor, field, m);
+  add_ground_reaction(e, p, field, m);
   return m;
 }
 
 template <>
-Measures measure(const Joint& joint, const Field& field, const double* multipliers, double turns, bool with_energies) {
+Measures measure(const Joint& joint, const Field& field, const double* multipliers, double turns) {
   PortMotion<double> p[2];
   Vec3<double> anchor;
   eval_ports_from_inertial(joint, field, p, anchor);
-  double out[12], rows[max_rows];
-  eval_residual(joint, p, multipliers, field.around, turns, out, rows);
   Measures m;
-  if (with_energies) m = begin_measures(joint, field, turns);
-  add_ground_reaction(joint, p, anchor, out, m);
+  if (holds_on_to_ground(joint)) {
+    double out[12], rows[max_rows];
+    eval_residual(joint, p, multipliers, field.around, turns, out, rows);
+    add_ground_reaction(joint, p, out, m);
+  }
   if (!field.around.has_inertia) return m;
   const Frame<double> H = motion::relative(p[0].H, p[1].H);
   const Vec6<double> twist = p[1].v - motion::inverse_adjoint_times(H, p[0].v);
-  Vec6<double> gradient;
-  for (int k = 0; k < joint.num_rows; ++k) {
-    eval_row(joint.rows[k], H, turns, field.around.laws, gradient);
-    m.work_rate -= multipliers[k] * lanes::dot(gradient, twist);
-  }
   for (int k = 0; k < joint.num_efforts; ++k) {
-    const Effort& e = joint.efforts[k];
     motion::Se3::Wrench<double> g;
-    eval_coordinate<motion::Se3, double, double>(e, H, turns, g);
+    eval_coordinate<motion::Se3, double, double>(joint.efforts[k], H, turns, g);
     const double rate = lanes::dot(motion::wrench_vector(g), twist);
-    m.dissipation_rate += e.damping * rate * rate;
-    if (e.law >= 0) m.work_rate += field.around.laws[e.law] * rate;
+    m.dissipation_rate += joint.efforts[k].damping * rate * rate;
   }
   return m;
 }

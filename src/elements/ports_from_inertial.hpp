@@ -20,10 +20,6 @@ template <class S, int N>
 const lanes::Vec<S, N>& to_origin(const motion::Place<S, N>&, const lanes::Vec<S, N>&, const lanes::Vec<S, N>& force) {
   return force;
 }
-template <class S>
-Vec6<S> to_inertial(const PortMotion<S>& p, const Vec3<S>& anchor, const Vec6<S>& wrench) {
-  return to_origin(p.H, anchor, wrench);
-}
 
 /// Motions of the ports as seen from the inertial frame, in the axes of the frame in which nodes are described.
 /// `anchor` is what positions are relative to, counted from the inertial origin.

@@ -15,12 +15,6 @@ using motion::Vec6;
 
 namespace {
 
-template <class E>
-bool holds_on_to_ground(const E& e) {
-  return std::any_of(std::begin(e.ports), std::end(e.ports),
-                     [](const elements::Port& p) { return p.node == elements::ground; });
-}
-
 /// Whether an element does work, dissipates energy or loads the ground in every step.
 template <class E>
 bool is_watched(const E& e) {
@@ -169,12 +163,12 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
       if constexpr (elements::joins_two_frames(E::role))
         if (f.carriers != nullptr)
           work += advance_grounds(plan, e, f, multipliers, turns, ports_.data() + w.first_port);
-      const Measures m = elements::measure(e, f, multipliers, turns, false);
+      const Measures m = elements::measure(e, f, multipliers, turns);
       if (const int law = stiffness_law(e); law >= 0)
         advance_drive(drives_[w.first_drive], system.instant().law_values()[static_cast<std::size_t>(law)],
                       m.strain_by_law);
       dissipation_rate_ += m.dissipation_rate;
-      force_ += lanes::linear_part(m.load);
+      force_ += m.force;
     });
   }
   force_ += mass_ * f.around.gravity;

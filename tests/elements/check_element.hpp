@@ -191,6 +191,63 @@ std::vector<double> residual_of(const Sample<E>& s, const Field& field) {
   return r;
 }
 
+/// Energies as they are reported, and what changes them and the momentum; rates are those of statics at rest.
+struct Measured {
+  double kinetic = 0.0, strain = 0.0, potential = 0.0, work_rate = 0.0;
+  Vec6<double> momentum = Vec6<double>::zero();  ///< (linear; angular about the origin)
+  Vec6<double> load = Vec6<double>::zero();      ///< resultant of gravity, loads and reactions of the ground
+};
+
+/// Power of the constraints and drives of a joint.
+inline double joint_power(const Sample<Joint>& s, const std::vector<PortMotion<double>>& p) {
+  const Frame<double> H = motion::relative(p[0].H, p[1].H);
+  const Vec6<double> twist = p[1].v - motion::inverse_adjoint_times(H, p[0].v);
+  double power = 0.0;
+  Vec6<double> gradient;
+  for (int k = 0; k < s.element.num_rows; ++k) {
+    eval_row(s.element.rows[k], H, s.turns, s.laws.data(), gradient);
+    power -= s.multipliers[static_cast<std::size_t>(k)] * lanes::dot(gradient, twist);
+  }
+  for (int k = 0; k < s.element.num_efforts; ++k) {
+    const Effort& e = s.element.efforts[k];
+    motion::Se3::Wrench<double> g;
+    eval_coordinate<motion::Se3, double, double>(e, H, s.turns, g);
+    if (e.law >= 0) power += s.laws[static_cast<std::size_t>(e.law)] * lanes::dot(motion::wrench_vector(g), twist);
+  }
+  return power;
+}
+
+template <class E>
+Measured measured(const Sample<E>& s, bool has_inertia = true) {
+  const Field field = s.field(has_inertia);
+  Measured m;
+  if constexpr (E::role != Role::load) {
+    const Energies e = eval_energies(s.element, field, s.turns);
+    const Vec3<double>& g = field.around.gravity;
+    m.kinetic = e.kinetic;
+    m.strain = e.strain;
+    m.potential = -lanes::dot(g, e.mass_moment);
+    m.momentum = e.momentum;
+    m.load = lanes::join(e.mass * g, lanes::cross(e.mass_moment, g));
+  }
+  const Vec3<double> origin = Vec3<double>::zero();
+  const auto p = ports_of(s.element, states_of<double>(s.nodes, motion::Vec3Pair::from(origin)), origin);
+  double out[6 * E::num_ports + E::num_multipliers];
+  eval_kernel_of(s.element, p.data(), s.multipliers.data(), field.around, out, s.turns);
+  for (int k = 0; k < E::num_ports; ++k) {
+    Vec6<double> f;
+    for (int i = 0; i < 6; ++i) f[i] = out[6 * k + i];
+    const Vec6<double> at_origin = motion::inverse_adjoint_transpose_times(p[static_cast<std::size_t>(k)].H, f);
+    if (s.element.ports[k].node == ground) m.load += at_origin;
+    if (E::role != Role::load) continue;
+    m.load -= at_origin;
+    if (has_inertia) m.work_rate -= lanes::dot(f, p[static_cast<std::size_t>(k)].v);
+  }
+  if constexpr (E::role == Role::joint)
+    if (has_inertia) m.work_rate = joint_power(s, p);
+  return m;
+}
+
 inline double largest(const std::vector<double>& a) {
   double m = 0.0;
   for (const double x : a) m = std::max(m, std::abs(x));

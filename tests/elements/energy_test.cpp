@@ -210,7 +210,7 @@ void expect_gravity_potential(const Sample<E>& given) {
             motion::compose(Frame<double>{n.R, n.x.hi}, motion::exp_se3(Vec6<double>(at * Vec6<double>::unit(k))));
         n.R = H.R;
         n.x = motion::Vec3Pair::from(H.x);
-        potential[side] = measure(moved.element, moved.field(false), nullptr, 0.0).potential;
+        potential[side] = measured(moved, false).potential;
       }
       slope.push_back((8.0 * (potential[0] - potential[1]) - (potential[2] - potential[3])) / (12.0 * step));
     }

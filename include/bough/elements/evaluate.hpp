@@ -2,6 +2,8 @@
 /// From node kinematics to an element's residual and tangent in the unknowns of its nodes: one driver for all element
 /// types. Tangents are exact: the residual's own source run on jets, or closed forms checked against its complex
 /// step.
+#include <algorithm>
+#include <iterator>
 #include <type_traits>
 #include <vector>
 
@@ -109,6 +111,11 @@ inline motion::Vec2<double> eval_port_rotation(const PortOn<motion::Se2, double>
   return port.has_offset ? motion::complex_times(node, port.offset.R) : node;
 }
 
+template <class E>
+bool holds_on_to_ground(const E& e) {
+  return std::any_of(std::begin(e.ports), std::end(e.ports), [](const auto& port) { return port.node == ground; });
+}
+
 /// Number of unknowns of an element: G::dof for each port that is not on the ground, and its multipliers.
 template <class E>
 int num_multipliers(const E& e) {
@@ -182,11 +189,10 @@ void eval_magnitude(const RigidBodyOn<G, C>& e, const FieldOn<G, S>& field, cons
   G::put(G::dual_bracket(v, G::matrix_times(e.mass, v)), term.v), add();
 }
 
-/// Energies, powers and momentum of one element with respect to the inertial frame; momentum and load are in the axes
-/// of the frame in which nodes are described. Without `with_energies`, energies, momentum and weight are omitted: the
-/// checks made in every step need only powers and the other loads.
+/// What the checks made in every step need of one element with respect to the inertial frame; the force is in the axes
+/// of the frame in which nodes are described.
 template <class E>
-Measures measure(const E& e, const Field& field, const double* multipliers, double turns, bool with_energies = true);
+Measures measure(const E& e, const Field& field, const double* multipliers, double turns);
 
 /// Time derivative of the residual along the motion with accelerations held constant: positions, velocities, frames of
 /// multipliers and laws advance. Laws are given as value and rate. Of joints only the forces are differentiated.

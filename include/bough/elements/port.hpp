@@ -173,17 +173,11 @@ int stiffness_law(const E&) {
   return -1;
 }
 
-/// Energies [J], power [W] and momentum of one element, for the balances of a run.
+/// Of one element, for the balances of a run.
 struct Measures {
-  double kinetic = 0.0;
-  double strain = 0.0;
-  double potential = 0.0;                        ///< of gravity, about the inertial origin
-  double work_rate = 0.0;                        ///< of loads, drives, efforts and of a ground that moves
-  double dissipation_rate = 0.0;                 ///< taken by dampers, >= 0
-  double strain_by_law = 0.0;                    ///< derivative of the strain energy by stiffness_law [J]
-  Vec6<double> momentum = Vec6<double>::zero();  ///< (linear; angular about the inertial origin), inertial axes
-  Vec6<double> load =
-      Vec6<double>::zero();  ///< resultant of gravity, loads and reactions of the ground, same point and axes
+  double dissipation_rate = 0.0;              ///< taken by dampers, >= 0 [W]
+  double strain_by_law = 0.0;                 ///< derivative of the strain energy by stiffness_law [J]
+  Vec3<double> force = Vec3<double>::zero();  ///< resultant of loads and reactions of the ground [N]
 };
 
 }  // namespace bough::elements
