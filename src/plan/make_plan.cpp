@@ -4,6 +4,7 @@
 
 #include "bough/laws/make_law.hpp"
 #include "bough/plan/plan.hpp"
+#include "bough/plan/stores.hpp"
 #include "bough/scene/analysis_kinds.hpp"
 #include "bough/scene/components.hpp"
 #include "bough/scene/part_lengths.hpp"
@@ -432,6 +433,7 @@ Plan make_plan(const scene::Scene& scene) {
   b.make_graph();
   b.add_sensors();
   b.list_turning_joints();
+  b.plan.energy_stores = energy_stores(b.plan);
   return std::move(b.plan);
 }
 

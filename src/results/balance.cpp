@@ -120,7 +120,7 @@ WorkMeter::WorkMeter(const plan::Plan& plan) {
   std::unordered_map<int, std::size_t> drives_of;
   for (const Watched& w : watched_)
     if (w.joint >= 0) drives_of.emplace(w.joint, w.first_drive);
-  for (const plan::EnergyStore& store : plan::energy_stores(plan)) {
+  for (const plan::EnergyStore& store : plan.energy_stores) {
     const int place = plan::joint_element(plan, store.joint).num_rows + store.effort;
     drives_[drives_of.at(store.joint) + static_cast<std::size_t>(place)].is_stored = true;
   }

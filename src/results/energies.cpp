@@ -224,14 +224,13 @@ void EnergyMeter::SortedOn<G>::add(const step::System& system, const step::State
   for (const EnergiesOn<G, double>& part : parts_) results::add(sum, part);
 }
 
-EnergyMeter::EnergyMeter(const plan::Plan& plan) : stores_(plan::energy_stores(plan)) {
+EnergyMeter::EnergyMeter(const plan::Plan& plan) {
   plan.with_group([&]<class G>() { sorted_ = std::make_unique<SortedOn<G>>(plan); });
 }
 EnergyMeter::~EnergyMeter() = default;
-EnergyMeter::EnergyMeter(const EnergyMeter& other) : sorted_(other.sorted_->copy()), stores_(other.stores_) {}
+EnergyMeter::EnergyMeter(const EnergyMeter& other) : sorted_(other.sorted_->copy()) {}
 EnergyMeter& EnergyMeter::operator=(const EnergyMeter& other) {
   sorted_ = other.sorted_->copy();
-  stores_ = other.stores_;
   return *this;
 }
 
@@ -239,7 +238,7 @@ EnergyMeter& EnergyMeter::operator=(const EnergyMeter& other) {
 double EnergyMeter::stored(const step::System& system, const step::State& state) const {
   double sum = 0.0;
   const elements::Field field = system.instant().field(state);
-  for (const plan::EnergyStore& store : stores_) {
+  for (const plan::EnergyStore& store : system.plan().energy_stores) {
     const elements::Joint& joint = plan::joint_element(system.plan(), store.joint);
     const double turns = state.turns[static_cast<std::size_t>(store.joint)];
     sum -= store.supplied
@@ -251,7 +250,7 @@ double EnergyMeter::stored(const step::System& system, const step::State& state)
 
 Energies EnergyMeter::eval(const step::System& system, const step::State& state) {
   Energies e = sorted_->eval(system, state);
-  if (!stores_.empty()) e.strain += stored(system, state);
+  if (!system.plan().energy_stores.empty()) e.strain += stored(system, state);
   return e;
 }
 

@@ -210,6 +210,15 @@ struct ModelOn {
 template <>
 struct ModelOn<motion::Se3> {};
 
+/// An effort of a joint that is a law f(q) of the coordinate q along which it acts, as a spring with a table is: a
+/// signal of kind "function" of a signal that reads q. It has the energy
+///   U(q) = -int_rest^q f(s) ds     [J], rest and f being those of the effort.
+struct EnergyStore {
+  int joint = -1;      ///< index in Plan::joints
+  int effort = -1;     ///< index in the efforts of the joint's element
+  laws::Law supplied;  ///< -U, over q; a formula's values are quadratures to round-off
+};
+
 struct Plan {
   std::string scene_name;
   bool is_dynamic = true;
@@ -236,6 +245,7 @@ struct Plan {
   bool signals_drive = false;                        ///< a signal is a law of a row of a joint
   bool signals_read_multipliers = false;             ///< a signal reads the force of a drive or of a row
   std::vector<std::vector<int>> signals_of_element;  ///< by global element id: those it reads. Empty where signals is
+  std::vector<EnergyStore> energy_stores;
   std::vector<SensorPlan> sensors;
   std::vector<BodyPlan> bodies;  ///< in the scene's order
   std::vector<WeldPlan> welds;   ///< empty unless the decision "welded" was taken

@@ -21,7 +21,7 @@ struct Supply {
 ///  loads    W = sum of 1/2 (F_n + F_{n+1}) . (displacement from n to n+1); forces of fixed direction in inertial axes,
 ///           others in the axes of the body with the displacement log(H_n^-1 H_{n+1}): exact where they are constant
 ///   drives   W = -1/2 (lambda_n + lambda_{n+1}) (law_{n+1} - law_n),   efforts alike over their coordinate, unless
-///            they store their energy (plan::energy_stores)
+///            they store their energy (plan::EnergyStore)
 ///   factors  of the stiffness of bushings  W = 1/2 (E_n + E_{n+1}) (k_{n+1} - k_n), E the strain energy at k = 1
 ///  grounds  with prescribed motion: the work of their wrenches on the structure, computed like follower loads
 ///   dampers and impulses by the trapezoidal rule

@@ -38,7 +38,6 @@ class EnergyMeter {
   double stored(const step::System& system, const step::State& state) const;
 
   std::unique_ptr<Sorted> sorted_;
-  std::vector<plan::EnergyStore> stores_;
 };
 
 }  // namespace bough::results
