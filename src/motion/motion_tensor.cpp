@@ -3,7 +3,7 @@
 #include <limits>
 #include <numbers>
 
-#include "norm.hpp"
+#include "bough/motion/norm.hpp"
 
 namespace bough::motion {
 

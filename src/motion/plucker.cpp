@@ -1,6 +1,6 @@
 #include "bough/motion/plucker.hpp"
 
-#include "norm.hpp"
+#include "bough/motion/norm.hpp"
 
 namespace bough::motion {
 

@@ -1,6 +1,6 @@
 #include "bough/motion/screw.hpp"
 
-#include "norm.hpp"
+#include "bough/motion/norm.hpp"
 
 namespace bough::motion {
 

@@ -30,8 +30,7 @@ Port section_port(int node, const Frame<double>& node_pose, const Frame<double>&
   const Frame<double> offset = motion::relative(node_pose, section);
   if (is_identity(offset)) return port;
   const Vec6<double> size = motion::Se3::log(offset);
-  const double shift = std::sqrt(lanes::dot(lanes::linear_part(size), lanes::linear_part(size)));
-  const double turn = std::sqrt(lanes::dot(lanes::angular_part(size), lanes::angular_part(size)));
+  const double shift = length_of(lanes::linear_part(size)), turn = length_of(lanes::angular_part(size));
   port.has_offset = shift > 1e-14 * length || turn > 1e-14;  // smaller offsets are round-off of the axis
   if (port.has_offset) port.offset = offset;
   return port;

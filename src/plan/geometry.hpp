@@ -1,7 +1,6 @@
 #pragma once
 /// Small questions about vectors and frames. Internal to plan.
 #include <algorithm>
-#include <cmath>
 
 #include "bough/motion/types.hpp"
 
@@ -9,8 +8,6 @@ namespace bough::plan {
 
 /// Largest relative gap, or relative velocity, of parts that start together: as large as a consistent start leaves it.
 inline constexpr double closed = 1e-13;
-
-inline double length_of(const motion::Vec3<double>& v) { return std::sqrt(lanes::dot(v, v)); }
 
 inline bool is_identity(const motion::Frame<double>& H) {
   const motion::Mat3<double> one = motion::Mat3<double>::identity();

@@ -36,7 +36,7 @@ void Builder::say_idle_parts() {
       if constexpr (E::role == elements::Role::load) moves = !is_zero(e.wrench);
       if constexpr (E::acts_along_line) {
         const motion::Vec3<double> r = initial_pose(e.ports[1]).x - initial_pose(e.ports[0]).x;
-        moves = std::abs(std::sqrt(lanes::dot(r, r)) - e.rest_length) > 1e-12 * plan.length_scale;
+        moves = std::abs(length_of(r) - e.rest_length) > 1e-12 * plan.length_scale;
       }
       if constexpr (E::role == elements::Role::joint) {
         for (int k = 0; k < e.num_rows; ++k) moves |= e.rows[k].law >= 0;

@@ -327,7 +327,7 @@ double Builder::size_of_structure() const {
       for (const Port& p : e.ports) add_point(initial_pose(p).x);
   });
   const Vec3<double> size = high - low;
-  double most = std::sqrt(lanes::dot(size, size));
+  double most = length_of(size);
   for (const scene::Body& b : scene.bodies)
     if (b.mass > 0.0)
       most = std::max(most, std::sqrt(0.5 * (b.inertia(0, 0) + b.inertia(1, 1) + b.inertia(2, 2)) / b.mass));

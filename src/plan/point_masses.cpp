@@ -85,7 +85,7 @@ void Builder::keep_from_spinning(std::size_t body, const std::vector<Vec3<double
   }
   if (!plan.is_dynamic) return;
   const int node = plan.bodies[body].frame.node;
-  spinless.emplace_back(node, (1.0 / std::sqrt(lanes::dot(line, line))) * line);
+  spinless.emplace_back(node, (1.0 / length_of(line)) * line);
   elements::RigidBody& e = array_of<elements::RigidBody>(plan.elements)[body];  // at this stage there is one for each
                                                                                 // body of the scene
   for (int i = 0; i < 3; ++i)

@@ -15,8 +15,6 @@ using motion::Vec3;
 constexpr double thinnest = 0.01;  // of the largest extent, so that flat and slender bodies remain visible
 constexpr double equal = 1e-9;     // moments of inertia whose relative difference is below this are equal
 
-double norm(const Vec3<double>& x) { return std::sqrt(dot(x, x)); }
-
 scene::Box cuboid(const Mat3<double>& J, double mass) {
   const double trace = J(0, 0) + J(1, 1) + J(2, 2);
   scene::Box box{};
@@ -40,26 +38,27 @@ scene::Cylinder cylinder(const Mat3<double>& J, double mass, int axis) {
 /// The arms whose ends differ from the centre of mass and from each other by more than round-off.
 std::vector<Vec3<double>> different_arms(const std::vector<Vec3<double>>& arms) {
   double longest = 0.0;
-  for (const Vec3<double>& a : arms) longest = std::max(longest, norm(a));
+  for (const Vec3<double>& a : arms) longest = std::max(longest, length_of(a));
   std::vector<Vec3<double>> found;
   for (const Vec3<double>& a : arms)
-    if (norm(a) > 1e-6 * longest &&
-        std::none_of(found.begin(), found.end(), [&](const Vec3<double>& b) { return norm(a - b) <= 1e-6 * longest; }))
+    if (length_of(a) > 1e-6 * longest && std::none_of(found.begin(), found.end(), [&](const Vec3<double>& b) {
+          return length_of(a - b) <= 1e-6 * longest;
+        }))
       found.push_back(a);
   return found;
 }
 
 scene::Mesh bars(const std::vector<Vec3<double>>& arms) {
   double longest = 0.0;
-  for (const Vec3<double>& a : arms) longest = std::max(longest, norm(a));
+  for (const Vec3<double>& a : arms) longest = std::max(longest, length_of(a));
   scene::Mesh all;
   for (const Vec3<double>& arm : arms) {
-    const double length = norm(arm);
+    const double length = length_of(arm);
     const Vec3<double> along = (1.0 / length) * arm;
     Vec3<double> other = Vec3<double>::zero();
     other[std::abs(along[2]) < 0.9 ? 2 : 0] = 1.0;
     Vec3<double> second = lanes::cross(other, along);
-    second = (1.0 / norm(second)) * second;
+    second = (1.0 / length_of(second)) * second;
     const Vec3<double> third = lanes::cross(along, second);
     const scene::Mesh bar = scene::mesh_of(scene::Cylinder{0.05 * longest, length, 1});
     const int first = static_cast<int>(all.points.size());

@@ -65,8 +65,7 @@ double Conservation::energy_round_off(const step::StepOptions& options, double d
   constexpr double digits = 64.0 * 0x1p-53;  // allows for round-off of sums over elements and steps
   const double mass = work_meter_.mass(), size = plan_.length_scale;
   const double open = options.tolerance * size / duration;
-  return digits * (mass * std::sqrt(lanes::dot(plan_.gravity, plan_.gravity)) * size + balance_.largest_energies()) +
-         0.5 * mass * open * open;
+  return digits * (mass * length_of(plan_.gravity) * size + balance_.largest_energies()) + 0.5 * mass * open * open;
 }
 
 void Conservation::sum_up(records::Checks& c, const step::StepOptions& options, double duration) const {

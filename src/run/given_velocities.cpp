@@ -12,11 +12,9 @@ using motion::Vec6;
 
 constexpr double round_off = 1e-9;  ///< relative to the largest speed; starts are consistent to some 1e-10
 
-double size_of(const Vec3<double>& v) { return std::sqrt(lanes::dot(v, v)); }
-
 /// Largest entry, lengths relative to the size of the structure [1/s].
 double speed_of(const Vec6<double>& twist, double length) {
-  return std::max(size_of(lanes::linear_part(twist)) / length, size_of(lanes::angular_part(twist)));
+  return std::max(length_of(lanes::linear_part(twist)) / length, length_of(lanes::angular_part(twist)));
 }
 
 }  // namespace
@@ -29,8 +27,8 @@ std::vector<records::ChangedVelocity> changed_velocities(const plan::Plan& plan,
         std::max({speed, speed_of(plan.nodes[n].twist, plan.length_scale), speed_of(nodes[n].v, plan.length_scale)});
   std::vector<records::ChangedVelocity> changed;
   const auto compare = [&](const std::string& of, bool is_angular, const Vec3<double>& asked, const Vec3<double>& got) {
-    if (size_of(asked) == 0.0) return;  // not given
-    const double change = size_of(Vec3<double>(got - asked)) / (is_angular ? speed : speed * plan.length_scale);
+    if (length_of(asked) == 0.0) return;  // not given
+    const double change = length_of(Vec3<double>(got - asked)) / (is_angular ? speed : speed * plan.length_scale);
     if (change <= round_off) return;
     const auto known = std::find_if(changed.begin(), changed.end(), [&](const records::ChangedVelocity& c) {
       return c.of == of && c.is_angular == is_angular;

@@ -19,8 +19,6 @@ struct Largest {
   }
 };
 
-double length_of(const motion::Vec3<double>& v) { return std::sqrt(lanes::dot(v, v)); }
-
 /// Absolute value of a load's law at a load factor; a load without a law is proportional to the load factor.
 double factor_of(const laws::Law& law, double load_factor) {
   return std::abs(law.node() == nullptr ? load_factor : law.at(load_factor, laws::Side::left).value);

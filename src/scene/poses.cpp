@@ -3,10 +3,12 @@
 #include <charconv>
 #include <cmath>
 
+#include "bough/motion/norm.hpp"
+
 namespace bough::scene {
 namespace {
 
-double norm(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }
+using motion::norm;
 
 template <class List>
 void add_all(std::unordered_map<std::string_view, Thing>& things, const List& list, ThingKind kind) {

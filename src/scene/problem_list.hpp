@@ -5,6 +5,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "bough/motion/norm.hpp"
 #include "bough/scene/components.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "bough/scene/poses.hpp"
@@ -62,8 +63,8 @@ struct ProblemList {
   NameSearch search_;
 };
 
+using motion::norm;
 std::string text_of(double x);
-double norm_of(const Vec3& a);
 bool is_zero(const Vec3& a);
 bool is_zero(const Mat6& a);
 

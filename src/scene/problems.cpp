@@ -222,7 +222,6 @@ std::string text_of(double x) {
   std::snprintf(text, sizeof text, "%.6g", x);
   return text;
 }
-double norm_of(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }
 bool is_zero(const Vec3& a) { return a[0] == 0.0 && a[1] == 0.0 && a[2] == 0.0; }
 bool is_zero(const Mat6& a) {
   return std::all_of(std::begin(a.m), std::end(a.m), [](double x) { return x == 0.0; });

@@ -19,7 +19,7 @@ constexpr double angle_tolerance = 1e-6;  // [rad]
 std::string in_metres(double x) { return text_of(x) + " m"; }
 std::string in_radians(double x) { return text_of(x) + " rad"; }
 
-double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(norm_of(cross(a, b)), dot(a, b)); }
+double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
 
 /// Norm of the values of a joint's rows that are lengths [m].
 double gap_of(const Joint& j, const Frame& H) {
@@ -43,13 +43,13 @@ double turn_of(const Joint& j, const Frame& H) {
     angle = std::hypot(angle, is_cosine ? std::asin(std::clamp(value, -1.0, 1.0)) : value);
   }
   if (cosines == 2) return angle_between(column(H.R, 2), Vec3::unit(2));
-  return cosines == 3 ? norm_of(motion::log_so3(H.R)) : angle;
+  return cosines == 3 ? norm(motion::log_so3(H.R)) : angle;
 }
 
 /// Describes why the two joint frames cannot coincide at the start; empty where they do. H: pose of the second in the
 /// first.
 std::string closure_fault(const Joint& j, const Frame& H, double allowed) {
-  if (!type_of(j.kind).has_common_frame() && norm_of(H.x) <= allowed)
+  if (!type_of(j.kind).has_common_frame() && norm(H.x) <= allowed)
     return "the points of first and second coincide at the start, so the joint has no direction";
   const double gap = gap_of(j, H), turn = turn_of(j, H);
   if (gap > allowed) return "the joint frames of first and second are " + in_metres(gap) + " apart at the start";
@@ -158,7 +158,7 @@ void check_joints(ProblemList& list) {
       if (a && b) {
         H = motion::relative(*a, *b);
         const double length = lengths.of_joint(j.first, j.second, list.size);
-        allowed = gap_tolerance * length + std::min(typed_tolerance * norm_of(b->x), typed_at_most * length);
+        allowed = gap_tolerance * length + std::min(typed_tolerance * norm(b->x), typed_at_most * length);
       }
     }
     if (H)
@@ -176,7 +176,7 @@ void check_couplings(ProblemList& list) {
     const Spring& s = list.scene.springs[i];
     if (check_pair(list, "springs", i, s)) {
       const auto a = list.poses.of(s.first), b = list.poses.of(s.second);
-      if (a && b && norm_of(b->x - a->x) <= 1e-12 * list.size)
+      if (a && b && norm(b->x - a->x) <= 1e-12 * list.size)
         list.add("springs", i, "second", "", "the two ends coincide at the start: the spring has no direction",
                  "use a bushing");
     }

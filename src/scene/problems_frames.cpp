@@ -43,12 +43,12 @@ void check_steady(ProblemList& list, const std::vector<std::size_t>& way) {
   for (int k = 0; k <= samples; ++k) {
     const double t = static_cast<double>(k) / samples;
     const Loading now = loading_at(list.scene, way, t);
-    const double rate = norm_of(start.turning);
+    const double rate = norm(start.turning);
     const auto differs = [](const Vec3& a, const Vec3& b, double scale) {
-      return !(norm_of(a - b) <= tolerance * (norm_of(b) + scale));
+      return !(norm(a - b) <= tolerance * (norm(b) + scale));
     };
     std::string what;
-    if (differs(now.turning, start.turning, 0.0) || !(norm_of(now.angular) <= tolerance * rate * rate))
+    if (differs(now.turning, start.turning, 0.0) || !(norm(now.angular) <= tolerance * rate * rate))
       what = "angular velocity";
     else if (differs(now.origin, start.origin, rate * rate * list.size))
       what = "acceleration";

@@ -54,16 +54,16 @@ void check_load_sizes(ProblemList& list) {
   for (std::size_t i = 0; i < s.point_loads.size(); ++i) {
     const PointLoad& l = s.point_loads[i];
     const double factor = largest_factor(list, l.law);
-    judge(list, "point_loads", i, "force", l.name, factor * norm_of(l.force), force);
-    judge(list, "point_loads", i, "moment", l.name, factor * norm_of(l.moment), moment);
+    judge(list, "point_loads", i, "force", l.name, factor * norm(l.force), force);
+    judge(list, "point_loads", i, "moment", l.name, factor * norm(l.moment), moment);
   }
   for (std::size_t i = 0; i < s.line_loads.size(); ++i) {
     const LineLoad& l = s.line_loads[i];
     const double factor = largest_factor(list, l.law);
-    judge(list, "line_loads", i, "force", l.name, factor * norm_of(l.force), line_force);
-    judge(list, "line_loads", i, "moment", l.name, factor * norm_of(l.moment), line_moment);
+    judge(list, "line_loads", i, "force", l.name, factor * norm(l.force), line_force);
+    judge(list, "line_loads", i, "moment", l.name, factor * norm(l.moment), line_moment);
   }
-  judge(list, "gravity", 0, "", "", largest_factor(list, s.gravity_law) * norm_of(s.gravity), gravity);
+  judge(list, "gravity", 0, "", "", largest_factor(list, s.gravity_law) * norm(s.gravity), gravity);
 }
 
 void check_stiffness_sizes(ProblemList& list) {
@@ -95,18 +95,18 @@ void check_stiffness_sizes(ProblemList& list) {
 void check_places(ProblemList& list) {
   const Scene& s = list.scene;
   for (std::size_t i = 0; i < s.nodes.size(); ++i)
-    judge(list, "nodes", i, "position", s.nodes[i].name, norm_of(s.nodes[i].placement.pose.x), place);
+    judge(list, "nodes", i, "position", s.nodes[i].name, norm(s.nodes[i].placement.pose.x), place);
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     const Body& b = s.bodies[i];
-    judge(list, "bodies", i, "position", b.name, norm_of(b.placement.pose.x), place);
-    judge(list, "bodies", i, "center_of_mass", b.name, norm_of(b.center_of_mass), place);
+    judge(list, "bodies", i, "position", b.name, norm(b.placement.pose.x), place);
+    judge(list, "bodies", i, "center_of_mass", b.name, norm(b.center_of_mass), place);
     judge(list, "bodies", i, "mass", b.name, b.mass, mass);
     judge(list, "bodies", i, "inertia", b.name, std::max({b.inertia(0, 0), b.inertia(1, 1), b.inertia(2, 2)}), inertia);
   }
   for (std::size_t i = 0; i < s.initial_velocities.size(); ++i) {
     const InitialVelocity& v = s.initial_velocities[i];
-    judge(list, "initial_velocities", i, "velocity", v.of, norm_of(v.velocity), velocity);
-    judge(list, "initial_velocities", i, "angular_velocity", v.of, norm_of(v.angular_velocity), turning);
+    judge(list, "initial_velocities", i, "velocity", v.of, norm(v.velocity), velocity);
+    judge(list, "initial_velocities", i, "angular_velocity", v.of, norm(v.angular_velocity), turning);
   }
 }
 

@@ -97,7 +97,7 @@ void check_turn_of_elements(ProblemList& list, std::size_t i, double length) {
   constexpr double most = 2.8;  // [rad], the angle whose cosine is -0.94
   const Beam& b = list.scene.beams[i];
   const bool is_straight = b.curve == BeamCurve::straight;
-  const double turn = is_straight ? std::abs(b.twist) : norm_of(b.curvature) * length;
+  const double turn = is_straight ? std::abs(b.twist) : norm(b.curvature) * length;
   if (!(turn > most * b.elements)) return;
   list.add("beams", i, "elements", b.name,
            "each element of this beam turns by " + text_of(turn / b.elements) + " rad from its start to its end",
@@ -123,8 +123,8 @@ void check_beam_axis(ProblemList& list, std::size_t i) {
   const auto end = list.poses.of(b.end);
   if (!end) return;
   const Vec3 gap = tip - motion::transform(*end, b.end_offset.value_or(Vec3::zero()));
-  if (norm_of(gap) > 1e-6 * length)
-    list.add("beams", i, "end", b.end, "the curved axis ends " + text_of(norm_of(gap)) + " m away from this end",
+  if (norm(gap) > 1e-6 * length)
+    list.add("beams", i, "end", b.end, "the curved axis ends " + text_of(norm(gap)) + " m away from this end",
              "it ends at (" + text_of(tip[0]) + ", " + text_of(tip[1]) + ", " + text_of(tip[2]) + ")");
 }
 

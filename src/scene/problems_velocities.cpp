@@ -81,9 +81,9 @@ void check_joint(ProblemList& list, std::size_t i, const GivenVelocities& veloci
   const Vec6 twist = lanes::join(lanes::transpose_times(H_b->R, Vec3(v_b - v_a)),
                                  lanes::transpose_times(H_b->R, Vec3(b->angular - a->angular)));
   const JointRates rates = held_rates(j, motion::relative(*H_a, *H_b), twist);
-  const double speed = std::max({norm_of(v_a), norm_of(v_b), norm_of(a->linear), norm_of(b->linear)});
-  const double turning = std::max(norm_of(a->angular), norm_of(b->angular));
-  const double arm = std::max(norm_of(H_b->x - a->x), norm_of(H_b->x - b->x));
+  const double speed = std::max({norm(v_a), norm(v_b), norm(a->linear), norm(b->linear)});
+  const double turning = std::max(norm(a->angular), norm(b->angular));
+  const double arm = std::max(norm(H_b->x - a->x), norm(H_b->x - b->x));
   std::string by;
   if (rates.linear > allowed * speed + round_off * turning * arm) by = text_of(rates.linear) + " m/s";
   if (rates.angular > allowed * turning) by += (by.empty() ? "" : " and ") + text_of(rates.angular) + " rad/s";
@@ -122,9 +122,9 @@ void check_rigid_parts(ProblemList& list, const GivenVelocities& velocities) {
     const auto [first, is_new] = first_of.try_emplace(parts.root(name), name);
     if (is_new || first->second == name) continue;
     const Velocity other = *velocities.of(first->second);
-    const double off = norm_of(own->linear - other.at(own->x)), turned = norm_of(own->angular - other.angular);
-    const double speed = std::max(norm_of(own->linear), norm_of(other.at(own->x)));
-    const double turning = std::max(norm_of(own->angular), norm_of(other.angular));
+    const double off = norm(own->linear - other.at(own->x)), turned = norm(own->angular - other.angular);
+    const double speed = std::max(norm(own->linear), norm(other.at(own->x)));
+    const double turning = std::max(norm(own->angular), norm(other.angular));
     if (off <= allowed * speed && turned <= allowed * turning) continue;
     list.add("initial_velocities", i, "of", name,
              "fixed joints make this one rigid part with '" + first->second +

@@ -116,8 +116,7 @@ void LocalError::watch_ends(const plan::Plan& plan, int node) {
 }
 
 void LocalError::watch(const elements::Port& port, bool turns, bool velocity) {
-  const motion::Vec3<double>& x = port.offset.x;
-  watch(port.node, port.has_offset ? std::sqrt(lanes::dot(x, x)) : 0.0, turns, velocity);
+  watch(port.node, port.has_offset ? length_of(port.offset.x) : 0.0, turns, velocity);
 }
 
 void LocalError::watch(int node, double arm, bool turns, bool velocity) {

@@ -20,8 +20,6 @@ constexpr int most_shifts = 60;      ///< limit of shifts, each four times the l
 constexpr double round_offs = 64.0;  ///< a curvature below this many eps times its terms is taken as zero
 constexpr double neutral = 1e-11;    ///< part of the diagonal that is added if the tangent is singular
 
-double length_of(const Vec3<double>& v) { return std::sqrt(lanes::dot(v, v)); }
-
 }  // namespace
 
 Stability::Stability(System& system) : system_(system) {

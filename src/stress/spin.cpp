@@ -128,10 +128,10 @@ void tumbling(Bench& bench) {
       if (r == 0) {
         first = spatial;
         energy_0 = e;
-        norm = std::sqrt(lanes::dot(first, first));
+        norm = length_of(first);
       }
       const Vec3 d = spatial - first;
-      momentum = std::max(momentum, std::sqrt(lanes::dot(d, d)) / norm);
+      momentum = std::max(momentum, length_of(d) / norm);
       double& half = energy[r < run.rows.size() / 2 ? 0 : 1];
       half = std::max(half, std::abs(e / energy_0 - 1.0));
     }

@@ -176,8 +176,8 @@ void fill_subdomains(const Found& found, const VisitMedians& m, records::Profile
     if (out.subdomains[s].parent < 0 || found.interface_forces.empty()) continue;
     const motion::Vec3<double> f = lanes::linear_part(found.interface_forces[s]);
     const motion::Vec3<double> m = lanes::angular_part(found.interface_forces[s]);
-    out.subdomains[s].force = std::sqrt(lanes::dot(f, f));
-    out.subdomains[s].moment = std::sqrt(lanes::dot(m, m));
+    out.subdomains[s].force = length_of(f);
+    out.subdomains[s].moment = length_of(m);
   }
   records::sum_subtrees(out.subdomains);
   out.levels = records::sum_levels(out.subdomains);

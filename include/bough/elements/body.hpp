@@ -154,10 +154,9 @@ struct SpringLine {
 };
 template <class G, class S, class C>
 BOUGH_INLINE SpringLine<G, S> eval_spring_line(const SpringOn<G, C>& spring, const PortMotionOn<G, S>* p, bool damps) {
-  using std::sqrt;
   SpringLine<G, S> line;
   const typename G::template Translation<S> r = p[1].H.x - p[0].H.x;
-  const S length = sqrt(lanes::dot(r, r));
+  const S length = lanes::length_of(r);
   line.inverse = S(1.0) / length;
   line.n = line.inverse * r;
   line.tension = spring.stiffness * (length - spring.rest_length);
@@ -180,9 +179,8 @@ BOUGH_INLINE void eval_residual(const SpringOn<G, C>& spring, const PortMotionOn
 
 template <class G, class S, class C>
 S eval_strain_energy(const SpringOn<G, C>& spring, const PortMotionOn<G, S>* p) {
-  using std::sqrt;
   const typename G::template Translation<S> r = p[1].H.x - p[0].H.x;
-  const S stretch = sqrt(lanes::dot(r, r)) - spring.rest_length;
+  const S stretch = lanes::length_of(r) - spring.rest_length;
   return 0.5 * spring.stiffness * stretch * stretch;
 }
 

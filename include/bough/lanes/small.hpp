@@ -89,6 +89,11 @@ BOUGH_INLINE S dot(const Vec<S, N>& a, const Vec<S, N>& b) {
   for (int i = 1; i < N; ++i) r = multiply_add(a.v[i], b.v[i], r);
   return r;
 }
+template <class S, int N>
+BOUGH_INLINE S length_of(const Vec<S, N>& a) {
+  using std::sqrt;
+  return sqrt(dot(a, a));
+}
 template <class S>
 BOUGH_INLINE Vec<S, 3> cross(const Vec<S, 3>& a, const Vec<S, 3>& b) {
   return {{negative_multiply_add(a[2], b[1], S(a[1] * b[2])), negative_multiply_add(a[0], b[2], S(a[2] * b[0])),

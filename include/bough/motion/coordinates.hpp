@@ -70,8 +70,7 @@ Vec3<S> angle_gradient(const Mat3<S>& R) {
 template <class G, class S, class C>
 BOUGH_INLINE S eval_distance(const C& length, const typename G::template Pose<S>& H,
                              typename G::template Wrench<S>& gradient) {
-  using std::sqrt;
-  const S distance = sqrt(lanes::dot(H.x, H.x));
+  const S distance = lanes::length_of(H.x);
   gradient = G::force(G::turned_back(H, typename G::template Translation<S>((S(1.0) / distance) * H.x)));
   return distance - length;
 }
@@ -120,11 +119,10 @@ struct GradientSlope {
 template <class G, class S, class C>
 GradientSlope<G, S> eval_gradient_slope(RowKind kind, const typename G::template Direction<C>& direction,
                                         const C& constant, const typename G::template Pose<S>& H) {
-  using std::sqrt;
   GradientSlope<G, S> r;
   if (kind == RowKind::distance) {
     r.has_lateral = true;
-    r.lateral = S(1.0) / sqrt(lanes::dot(H.x, H.x));
+    r.lateral = S(1.0) / lanes::length_of(H.x);
   }
   if constexpr (G::turns) {  // otherwise displacements have constant gradients
     if (kind == RowKind::distance) {
