@@ -200,12 +200,11 @@ std::optional<Trouble> predict(System& system, State& state, const StepOptions& 
 }
 
 StepReport advance(System& system, State& state, const StepOptions& options, double end_time, laws::Side side) {
-  const double shape_margin = state.shape_margin;
-  state.change_all([&](auto& nodes) {
+  state.visit([&]<class G>(const NodesOn<G>&) {
+    NodesOn<G>& nodes = state.changing<G>();  // no node moves: what is known of them still holds
     for (auto* known : {&nodes.algorithmic, &nodes.acceleration_trend, &nodes.trend_change})
       known->arrange(system.node_order());
   });
-  state.shape_margin = shape_margin;  // no node was moved
   State& start = system.work().start;
   std::swap(state, start);
   StepReport report = try_step(system, state, start, options, end_time, side);

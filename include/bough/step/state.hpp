@@ -85,11 +85,11 @@ struct State {
     begin_change();
     return std::get<NodesOn<G>>(nodes_);
   }
-  /// To be changed by several threads: begin_change() is to be called before, by one.
   void begin_change() {
     in_space_.nodes.clear();
     shape_margin = 0.0;
   }
+  /// To be changed by several threads, after begin_change() by one; or where no node moves.
   template <class G>
   NodesOn<G>& changing() {
     return std::get<NodesOn<G>>(nodes_);
