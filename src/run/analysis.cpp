@@ -1,7 +1,6 @@
 #include "analysis.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <stdexcept>
 
 #include "load_path.hpp"
@@ -70,20 +69,18 @@ std::unique_ptr<Analysis> make_dynamics(const Parts& parts) {
   return std::make_unique<EqualSteps>(parts);
 }
 
-struct Maker {
-  scene::AnalysisKind kind;
-  std::unique_ptr<Analysis> (*make)(const Parts& parts);
-};
-constexpr Maker makers[] = {{scene::AnalysisKind::statics, make_statics},
-                            {scene::AnalysisKind::dynamics, make_dynamics},
-                            {scene::AnalysisKind::inverse_dynamics, make_inverse_dynamics}};
-
 }  // namespace
 
 std::unique_ptr<Analysis> make_analysis(const Parts& parts) {
-  const auto* maker = std::find_if(std::begin(makers), std::end(makers),
-                                   [&](const Maker& m) { return m.kind == parts.scene.analysis.kind; });
-  return maker->make(parts);
+  switch (parts.scene.analysis.kind) {
+    case scene::AnalysisKind::statics:
+      return make_statics(parts);
+    case scene::AnalysisKind::dynamics:
+      return make_dynamics(parts);
+    case scene::AnalysisKind::inverse_dynamics:
+      return make_inverse_dynamics(parts);
+  }
+  throw std::logic_error("no analysis of this kind");
 }
 
 }  // namespace bough::run
