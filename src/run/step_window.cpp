@@ -29,7 +29,7 @@ StepWindow::StepWindow(const plan::Plan& plan, std::vector<int> sensors) : plan_
   for (std::vector<int>& list : nodes_of_)
     for (int& node : list)
       node = static_cast<int>(std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin());
-  between_nodes_.resize(plan.nodes.size());
+  between_.emplace<motion::Se3>().motion.resize(plan.nodes.size());
   between_.turns.resize(plan.joints.size());
   between_.signals.value.resize(plan.signals.size());
 }
@@ -42,8 +42,9 @@ void StepWindow::push(const step::System& system, const step::State& state, resu
   End& end = ends_[static_cast<std::size_t>(num_ends_ - 1)];
   end.time = state.time;
   end.nodes.clear();
-  step::copy_nodes_in_space(plan_, state, nodes_, between_nodes_);
-  for (const int node : nodes_) end.nodes.push_back(between_nodes_[static_cast<std::size_t>(node)]);
+  std::vector<elements::NodeMotion>& nodes = between_.change<motion::Se3>().motion;
+  step::copy_nodes_in_space(plan_, state, nodes_, nodes);
+  for (const int node : nodes_) end.nodes.push_back(nodes[static_cast<std::size_t>(node)]);
   end.turns = state.turns;
   results::eval_sensors(system, state, meter, sensors_, end.values);
 }
@@ -70,8 +71,7 @@ std::span<const double> StepWindow::values_between(step::System& system, results
   }
   const End &first = ends_[static_cast<std::size_t>(interval)], &last = ends_[static_cast<std::size_t>(interval) + 1];
   const double h = last.time - first.time, part = (time - first.time) / h;
-  std::vector<elements::NodeMotion>& nodes = between_.emplace<motion::Se3>().motion;
-  nodes.resize(plan_.nodes.size());
+  std::vector<elements::NodeMotion>& nodes = between_.change<motion::Se3>().motion;
   for (const int i : nodes_of_[sensor]) {
     const auto place = static_cast<std::size_t>(i);
     step::eval_between(first.nodes[place], last.nodes[place], h, part, nodes[static_cast<std::size_t>(nodes_[place])]);

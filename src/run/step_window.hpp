@@ -52,8 +52,7 @@ class StepWindow {
   std::vector<int> nodes_;                  ///< nodes used by sensors of motion
   std::array<End, most_ends> ends_;
   int num_ends_ = 0;
-  std::vector<elements::NodeMotion> between_nodes_;  ///< scratch of push
-  step::State between_;                              ///< only the data used by sensors of motion are set
+  step::State between_;  ///< only the data used by sensors of motion are set, which push overwrites
   std::vector<double> found_;
 };
 
