@@ -151,17 +151,12 @@ FactorStatus Hierarchical::State::factor_all(const tree::Walker& walker, VisitWo
 void Hierarchical::condense(const tree::Walker& walker, VisitWork before, const double* rhs) {
   State& s = *state_;
   s.is_condensed = s.null_space.deficiency() == 0;
-  if (!s.is_condensed) {
-    if (before) visit_all(walker, before);
-    return;
-  }
+  if (!s.is_condensed) return visit_all(walker, before);
   s.visit_rhs = rhs;
   s.mark = walker.mark;
   auto forward = [&s, &before](int group) {
-    if (before) {
-      before(group);
-      s.mark(tree::Stage::evaluate);
-    }
+    before(group);
+    s.mark(tree::Stage::evaluate);
     s.forward_group(group);
   };
   walker.walk_up(s.lanes.walk, tree::make_visit(forward, tree::Work::forward));

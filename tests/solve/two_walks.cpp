@@ -115,7 +115,8 @@ TEST(TwoWalks, a_right_hand_side_is_condensed_again_after_another_solution) {
   ASSERT_TRUE(s.factor().ok());
   const Eigen::VectorXd b = s.random_rhs(3), x = s.solve(b);
   const tree::Walker walker = schedule::make_serial_walker();
-  s.solver.condense(walker, {}, b.data());
+  auto nothing = [](int) {};
+  s.solver.condense(walker, solve::make_visit_work(nothing), b.data());
   s.solve(s.random_rhs(4));
   Eigen::VectorXd again(b.size());
   s.solver.substitute(walker, b.data(), again.data(), false);

@@ -52,7 +52,7 @@ class AnySolver {
   void condense(const tree::Walker& walker, VisitWork before, const double* rhs) {
     if (auto* s = std::get_if<Hierarchical>(&solver_))
       s->condense(walker, before, rhs);
-    else if (before)
+    else
       before(0);
   }
   SolveReport substitute(const tree::Walker& walker, const double* rhs, double* x, bool check, VisitWork after = {}) {

@@ -58,7 +58,7 @@ class Hierarchical {
   /// while a front is in the cache; substitute() then solves.
   [[nodiscard]] FactorStatus factor(const tree::Walker& walker, VisitWork before = {}, const double* rhs = nullptr);
 
-  /// Condenses a right-hand side upward with the last factorization; `before` may write the entries that each visit
+  /// Condenses a right-hand side upward with the last factorization; `before` writes the entries that each visit
   /// eliminates. Precondition: factor() was ok.
   void condense(const tree::Walker& walker, VisitWork before, const double* rhs);
 
