@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "bough/blocks/at.hpp"
-#include "element_store.hpp"
 #include "refine.hpp"
+#include "sparse_matrix.hpp"
 #ifdef BOUGH_HAS_KLU
 #include <klu.h>
 #endif
@@ -36,7 +36,7 @@ struct Monolithic::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  void assemble(double lowered);
+  void assemble(double lowered) { sparse.assemble(elements, scales, lowered); }
   void solve_scaled(double* b);  ///< in place
   bool factor_values(bool fresh);
 
@@ -46,10 +46,7 @@ struct Monolithic::State {
   std::vector<ElementBatch> batches;
   Scales scales;
   bool scales_wanted = true;
-  std::vector<int> column_begin, row_index;
-  std::vector<double> values;
-  std::vector<int> offset;  ///< for every pair (p, q) of every element: rows before block p in the columns of block q
-  std::vector<std::int64_t> pair_begin;  ///< by element
+  SparseAssembly sparse;
   std::vector<double> rhs, residual, work, x_scaled;
   bool regularised = false, weak = false;
   FactorStatus status;
@@ -62,53 +59,14 @@ struct Monolithic::State {
 };
 
 Monolithic::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o)
-    : tree(t), options(o), elements(graph, t), batches(elements.single_batches()) {
+    : tree(t),
+      options(o),
+      elements(graph, t),
+      batches(elements.single_batches()),
+      sparse(elements, MultiplierEntries::diagonal) {
   const std::size_t n = at(tree.num_unknowns());
   for (auto* v : {&scales.row, &scales.column, &scales.weight}) v->assign(n, 1.0);
   for (auto* v : {&rhs, &residual, &work, &x_scaled}) v->assign(n, 0.0);
-  const auto is_motion = [&](int b) { return graph.block_kind[at(b)] == blocks::BlockKind::motion; };
-  std::vector<std::vector<int>> neighbours(at(graph.num_blocks()));
-  for (int b = 0; b < graph.num_blocks(); ++b) neighbours[at(b)].push_back(b);
-  for (int e = 0; e < graph.num_elements(); ++e)
-    for (int p = 0; p < elements.num_blocks_of(e); ++p)
-      for (int q = 0; q < elements.num_blocks_of(e); ++q)
-        neighbours[at(elements.blocks_of(e)[q])].push_back(elements.blocks_of(e)[p]);
-  std::vector<std::vector<int>> before(at(graph.num_blocks()));
-  column_begin.assign(1, 0);
-  for (int b = 0; b < graph.num_blocks(); ++b) {
-    auto& list = neighbours[at(b)];
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    int rows = 0;
-    for (int other : list) {
-      before[at(b)].push_back(rows);
-      rows +=
-          other == b && !is_motion(b) ? 1 : graph.block_size[at(other)];  // a multiplier has only its diagonal entry
-    }
-    for (int j = 0; j < graph.block_size[at(b)]; ++j) {
-      for (int other : list) {
-        const int first = static_cast<int>(tree.unknown_begin[at(other)]);
-        if (other == b && !is_motion(b)) {
-          row_index.push_back(first + j);
-        } else {
-          for (int i = 0; i < graph.block_size[at(other)]; ++i) row_index.push_back(first + i);
-        }
-      }
-      column_begin.push_back(static_cast<int>(row_index.size()));
-    }
-  }
-  pair_begin.assign(1, 0);
-  for (int e = 0; e < graph.num_elements(); ++e) {
-    for (int p = 0; p < elements.num_blocks_of(e); ++p)
-      for (int q = 0; q < elements.num_blocks_of(e); ++q) {
-        const int bq = elements.blocks_of(e)[q];
-        const auto& list = neighbours[at(bq)];
-        const auto it = std::lower_bound(list.begin(), list.end(), elements.blocks_of(e)[p]);
-        offset.push_back(before[at(bq)][at(it - list.begin())]);
-      }
-    pair_begin.push_back(static_cast<std::int64_t>(offset.size()));
-  }
-  values.assign(row_index.size(), 0.0);
 #ifdef BOUGH_HAS_KLU
   klu_defaults(&common);
   common.scale = 0;  // values are scaled already
@@ -123,65 +81,23 @@ Monolithic::State::~State() {
 #endif
 }
 
-/// values = D_r A D_c, multipliers' diagonal lowered by `lowered` (in the exact scaling of the multipliers).
-void Monolithic::State::assemble(double lowered) {
-  const auto& graph = elements.graph();
-  std::fill(values.begin(), values.end(), 0.0);
-  for (int e = 0; e < graph.num_elements(); ++e) {
-    const int count = elements.num_blocks_of(e), n = elements.size_of(e);
-    const ElementView a = elements.view(e);
-    for (int p = 0, i0 = 0; p < count; ++p) {
-      const int bp = elements.blocks_of(e)[p], np = graph.block_size[at(bp)];
-      for (int q = 0, j0 = 0; q < count; ++q) {
-        const int bq = elements.blocks_of(e)[q], nq = graph.block_size[at(bq)];
-        const int rows_before = offset[at(pair_begin[at(e)] + p * count + q)];
-        const bool diagonal_only = p == q && graph.block_kind[at(bp)] == blocks::BlockKind::multiplier;
-        for (int j = 0; j < nq; ++j) {
-          const std::int64_t column = tree.unknown_begin[at(bq)] + j;
-          double* target = values.data() + column_begin[at(column)] + rows_before;
-          for (int i = 0; i < np; ++i) {
-            const double value =
-                scales.row[at(tree.unknown_begin[at(bp)] + i)] * a[(i0 + i) * n + j0 + j] * scales.column[at(column)];
-            if (!diagonal_only) {
-              target[i] += value;
-            } else if (i == j) {
-              target[0] += value;
-            }
-          }
-        }
-        j0 += nq;
-      }
-      i0 += np;
-    }
-  }
-  if (lowered == 0.0) return;
-  for (int b = 0; b < graph.num_blocks(); ++b) {
-    if (graph.block_kind[at(b)] == blocks::BlockKind::motion) continue;
-    for (std::int64_t u = tree.unknown_begin[at(b)]; u < tree.unknown_begin[at(b) + 1]; ++u)
-      for (int k = column_begin[at(u)]; k < column_begin[at(u) + 1]; ++k)
-        if (row_index[at(k)] == u) values[at(k)] -= lowered * scales.weight[at(u)] * scales.weight[at(u)];
-  }
-}
-
 #ifdef BOUGH_HAS_KLU
 /// Factors the values, with a new pivot order unless the old one can be used. False if singular or nearly so.
 bool Monolithic::State::factor_values(bool fresh) {
   const int n = static_cast<int>(rhs.size());
   if (n == 0) return true;
-  if (symbolic == nullptr) symbolic = klu_analyze(n, column_begin.data(), row_index.data(), &common);
+  int *const begin = sparse.matrix().outerIndexPtr(), *const rows = sparse.matrix().innerIndexPtr();
+  double* const values = sparse.matrix().valuePtr();
+  if (symbolic == nullptr) symbolic = klu_analyze(n, begin, rows, &common);
   if (symbolic == nullptr) return false;
-  bool done = false;
-  if (!fresh && numeric != nullptr) {
-    done = klu_refactor(column_begin.data(), row_index.data(), values.data(), symbolic, numeric, &common) != 0 &&
-           common.status == KLU_OK && klu_rcond(symbolic, numeric, &common) != 0 && common.rcond > least_rcond;
-  }
-  if (!done) {
-    klu_free_numeric(&numeric, &common);
-    numeric = klu_factor(column_begin.data(), row_index.data(), values.data(), symbolic, &common);
-    done = numeric != nullptr && common.status == KLU_OK && klu_rcond(symbolic, numeric, &common) != 0 &&
-           common.rcond > least_rcond;
-  }
-  return done;
+  const auto is_good = [&] {
+    return common.status == KLU_OK && klu_rcond(symbolic, numeric, &common) != 0 && common.rcond > least_rcond;
+  };
+  if (!fresh && numeric != nullptr && klu_refactor(begin, rows, values, symbolic, numeric, &common) != 0 && is_good())
+    return true;
+  klu_free_numeric(&numeric, &common);
+  numeric = klu_factor(begin, rows, values, symbolic, &common);
+  return numeric != nullptr && is_good();
 }
 
 void Monolithic::State::solve_scaled(double* b) {
@@ -230,11 +146,10 @@ FactorStatus Monolithic::factor(const tree::Walker& /*walker*/) {
   s.scales_wanted = false;
   s.assemble(0.0);
   ++s.counters.factorizations;
-  for (std::size_t k = 0; k < s.values.size(); ++k) {
-    if (std::isfinite(s.values[k])) continue;
-    const auto next = std::upper_bound(s.tree.unknown_begin.begin(), s.tree.unknown_begin.end(), s.row_index[k]);
+  for (Eigen::Index k = 0; k < s.sparse.matrix().nonZeros(); ++k) {
+    if (std::isfinite(s.sparse.matrix().valuePtr()[k])) continue;
     s.status.outcome = FactorOutcome::not_finite;
-    s.status.block = static_cast<int>(next - s.tree.unknown_begin.begin()) - 1;
+    s.status.block = block_of_unknown(s.tree, s.sparse.matrix().innerIndexPtr()[k]);
     return s.status;
   }
   const bool was_regularised = std::exchange(s.regularised, false);
@@ -248,9 +163,7 @@ FactorStatus Monolithic::factor(const tree::Walker& /*walker*/) {
 #ifdef BOUGH_HAS_KLU
     const int column = s.common.singular_col;
     if (column >= 0 && column < static_cast<int>(s.rhs.size())) {
-      const auto next =
-          std::upper_bound(s.tree.unknown_begin.begin(), s.tree.unknown_begin.end(), static_cast<std::int64_t>(column));
-      s.status.block = static_cast<int>(next - s.tree.unknown_begin.begin()) - 1;
+      s.status.block = block_of_unknown(s.tree, column);
       s.status.local = static_cast<int>(column - s.tree.unknown_begin[at(s.status.block)]);
     }
 #endif
@@ -312,8 +225,7 @@ SolveReport Monolithic::solve(const tree::Walker& walker, const double* rhs, dou
 SolverCounters Monolithic::counters() const {
   const State& s = *state_;
   SolverCounters c = s.counters;
-  c.memory_bytes =
-      s.elements.memory_bytes() + static_cast<std::int64_t>(s.values.size() * (sizeof(double) + sizeof(int)));
+  c.memory_bytes = s.elements.memory_bytes() + s.sparse.memory_bytes();
 #ifdef BOUGH_HAS_KLU
   if (s.numeric != nullptr) {
     c.memory_bytes += static_cast<std::int64_t>(s.common.mempeak);

@@ -11,18 +11,25 @@ namespace bough::solve {
 
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
+/// Entries between the multipliers of one block, which do not act on each other.
+enum class MultiplierEntries { all, diagonal };
+
 /// D_r A D_c as one sparse matrix. The pattern is made once; all diagonal entries are in it.
 class SparseAssembly {
  public:
-  explicit SparseAssembly(const ElementStore& elements);
+  SparseAssembly(const ElementStore& elements, MultiplierEntries between);
   /// Sets the values; multipliers' diagonals lowered by `lowered` in their exact scaling.
   void assemble(const ElementStore& elements, const Scales& scales, double lowered);
   const SparseMatrix& matrix() const { return matrix_; }
+  SparseMatrix& matrix() { return matrix_; }
+  /// Of values and their rows.
+  std::int64_t memory_bytes() const { return matrix_.nonZeros() * std::int64_t{sizeof(double) + sizeof(int)}; }
   /// max |A - A^T|, scaled. Allocates.
   double asymmetry() const;
 
  private:
   SparseMatrix matrix_;
+  MultiplierEntries between_;
   std::vector<int> slots_;  ///< place of every entry of every element, elements ascending, row by row
   std::vector<int> diagonal_;
   std::vector<std::uint8_t> is_multiplier_;

@@ -33,7 +33,7 @@ struct SparseOracle::State {
         options(o),
         elements(graph, t),
         batches(elements.single_batches()),
-        sparse(elements),
+        sparse(elements, MultiplierEntries::all),
         buffers(at(t.num_unknowns())),
         probe(at(t.num_unknowns())),
         response(at(t.num_unknowns())) {
@@ -213,8 +213,7 @@ SolveReport SparseOracle::solve(const tree::Walker& walker, const double* rhs, d
 SolverCounters SparseOracle::counters() const {
   const State& s = *state_;
   SolverCounters c = s.counters;
-  c.memory_bytes = s.elements.memory_bytes() +
-                   static_cast<std::int64_t>(at(s.sparse.matrix().nonZeros()) * (sizeof(double) + sizeof(int)));
+  c.memory_bytes = s.elements.memory_bytes() + s.sparse.memory_bytes();
   if (s.counters.factorizations > 0) {
     c.memory_bytes += std::visit([](const auto& b) { return b.memory_bytes(); }, s.backend);
     c.factor_flops = std::visit([](const auto& b) { return b.flops(); }, s.backend);
