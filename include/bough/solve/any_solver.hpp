@@ -10,7 +10,9 @@
 
 namespace bough::solve {
 
-/// One of the solvers. The functions are those of Hierarchical.
+/// One of the solvers, and the contract of them all: they solve A x = b, A = sum of dense element matrices over the
+/// blocks of a graph, generally unsymmetric with symmetric structure. Their constructors size storage and compute
+/// nothing; the tree is made from this graph, problems_in(options) is empty, and both must outlive the solver.
 class AnySolver {
  public:
   AnySolver(Hierarchical solver) : solver_(std::move(solver)) {}
@@ -18,18 +20,24 @@ class AnySolver {
   AnySolver(SparseOracle solver) : solver_(std::move(solver)) {}
   AnySolver(Dual solver) : solver_(std::move(solver)) {}
 
+  /// The memory to which the assembler writes an element matrix, initially zero. Values stay until they are
+  /// overwritten; elements of a leaf are adjacent.
   ElementView element(int id) {
     return std::visit([&](auto& s) { return s.element(id); }, solver_);
   }
   ConstElementView element(int id) const {
     return std::visit([&](const auto& s) { return s.element(id); }, solver_);
   }
+  /// All elements in the order in which factor() assembles them; equal elements of sub-domains in lockstep form one
+  /// batch.
   std::span<const ElementBatch> batches() const {
     return std::visit([](auto& s) { return s.batches(); }, solver_);
   }
+  /// Computes the scales anew from the element matrices in the next factor(). The first factor() always does.
   void rescale() {
     std::visit([](auto& s) { s.rescale(); }, solver_);
   }
+  /// See Hierarchical, whose walks have visits; the others have one, before or after all of their work.
   void trust_symmetry(bool mirrored) {
     if (auto* s = std::get_if<Hierarchical>(&solver_)) s->trust_symmetry(mirrored);
   }
@@ -61,7 +69,10 @@ class AnySolver {
     if (after) after(0);
     return report;
   }
-  /// check = false: solvers that support it omit the backward error (NaN) and iterative refinement.
+  /// Solves with the last factorization. rhs, x: num_unknowns, in the order of the blocks; may be the same array.
+  /// Precondition: factor() was ok. If constraint rows are dependent, the multipliers are those of least norm (each
+  /// measured relative to its constraint row, without units). check = false: solvers that support it omit the backward
+  /// error (NaN) and iterative refinement.
   [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x, bool check = true) {
     return std::visit(
         [&](auto& s) {
@@ -71,6 +82,7 @@ class AnySolver {
         },
         solver_);
   }
+  /// y = A x with the present element matrices (unscaled). y must not be x. No allocation.
   void multiply(const tree::Walker& walker, const double* x, double* y) const {
     std::visit([&](auto& s) { s.multiply(walker, x, y); }, solver_);
   }
@@ -85,6 +97,8 @@ class AnySolver {
   SolverCounters counters() const {
     return std::visit([](auto& s) { return s.counters(); }, solver_);
   }
+  /// Blocks whose multipliers are not unique (they take part in a null vector), ascending. Empty without deficiency,
+  /// and where it is not determined.
   std::vector<int> blocks_not_unique() const {
     return std::visit([](auto& s) { return s.blocks_not_unique(); }, solver_);
   }

@@ -15,36 +15,27 @@
 
 namespace bough::solve {
 
-/// Solves A x = b, A = sum of dense element matrices over the blocks of a graph, generally unsymmetric with symmetric
-/// structure.
+/// Functions without a comment are those of AnySolver, which states the contract.
 ///
 ///   S_i = A_BB - A_BI A_II^-1 A_IB,   g_i = b_B - A_BI A_II^-1 b_I         upward, sub-domain i, interface B,
 ///     interior I
 ///   x_I = A_II^-1 (b_I - A_IB x_B),   l_i = (g_i - S_i x_B) / s            downward; l_i: its local multipliers
 ///
-/// Elimination is done in scaled variables D_r A D_c (powers of two). The graph and the tree must outlive the solver.
+/// Elimination is done in scaled variables D_r A D_c (powers of two).
 class Hierarchical {
  public:
-  /// Sizes all storage; computes nothing. Preconditions: tree made from this graph; problems_in(options) empty.
   Hierarchical(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options = {});
   ~Hierarchical();
   Hierarchical(Hierarchical&&) noexcept;
   Hierarchical& operator=(Hierarchical&&) noexcept;
 
-  /// The memory to which the assembler writes an element matrix, initially zero. Values stay until they are
-  /// overwritten; elements of a leaf are adjacent.
   ElementView element(int id);
   ConstElementView element(int id) const;
-
-  /// All elements in the order in which factor() assembles them; equal elements of sub-domains in lockstep form one
-  /// batch.
   std::span<const ElementBatch> batches() const;
+  void rescale();
 
   /// The visits of the walks. They do not change.
   SolverVisits visits() const;
-
-  /// Computes the scales anew from the element matrices in the next factor(). The first factor() always does.
-  void rescale();
 
   /// For matrices declared symmetric. mirrored: the caller promises that every entry of the element matrices and its
   /// mirror image have the same bits. Factorizations then read one of the two and compare them only when they compute
@@ -71,16 +62,12 @@ class Hierarchical {
   /// Calls `work` in an upward walk that does nothing else.
   void visit_all(const tree::Walker& walker, VisitWork work) const;
 
-  /// Solves with the last factorization. rhs, x: num_unknowns, in the order of the blocks; may be the same array.
-  /// Precondition: factor() was ok. If constraint rows are dependent, the multipliers are those of least norm (each
-  /// measured relative to its constraint row, without units).
   [[nodiscard]] SolveReport solve(const tree::Walker& walker, const double* rhs, double* x);
 
   /// As solve(), without backward error and refinement regardless of SolveOptions::check, which saves a product with A.
   /// Dependent rows are still checked.
   [[nodiscard]] SolveReport solve_unchecked(const tree::Walker& walker, const double* rhs, double* x);
 
-  /// y = A x with the present element matrices (unscaled). y must not be x. No allocation.
   void multiply(const tree::Walker& walker, const double* x, double* y) const;
 
   const FactorStatus& last_status() const;
@@ -99,7 +86,6 @@ class Hierarchical {
   /// allocates) and are NaN for others. flops: of the sub-domain's own fronts; seconds are not measured. Precondition:
   /// factor() was ok, and the element matrices are still those.
   std::vector<InterfaceReport> interfaces(const tree::Walker& walker, int widest = std::numeric_limits<int>::max());
-  /// Blocks whose multipliers are not unique (they take part in a null vector), ascending. Empty without deficiency.
   std::vector<int> blocks_not_unique() const;
   /// Scale of every unknown and of every row (powers of two): scaled A = row_scale A column_scale.
   std::span<const double> column_scale() const;

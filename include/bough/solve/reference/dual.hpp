@@ -31,8 +31,10 @@ struct DualOptions {
   InterfaceSolution solution = InterfaceSolution::direct;
 };
 
-/// Same contract as Hierarchical. With A_i sub-domain i condensed to its boundary, B_i the signed ties, l the global
-/// multipliers (ties are not redundant: m copies have m - 1), w_i the unknowns of i in the interface mesh,
+/// The contract is that of AnySolver.
+///
+/// With A_i sub-domain i condensed to its boundary, B_i the signed ties, l the global multipliers (ties are not
+/// redundant: m copies have m - 1), w_i the unknowns of i in the interface mesh,
 ///
 ///   x_i = A_i^+ (f_i - B_i^T l) + R_i w_i,         sum_i B_i x_i = 0
 ///   [ T  G_Q^T ] [w]   [ e ]     F = sum B_i A_i^+ B_i^T   G_R = sum B_i R_i   e = sum Q_i^T f_i
@@ -48,7 +50,6 @@ struct DualOptions {
 /// Allocates in factor().
 class Dual {
  public:
-  /// Preconditions: tree made from this graph; problems_in(options) empty.
   Dual(const blocks::BlockGraph& graph, const tree::Tree& tree, const DualOptions& form,
        const SolveOptions& options = {});
   ~Dual();

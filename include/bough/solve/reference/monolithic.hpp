@@ -12,10 +12,11 @@
 
 namespace bough::solve {
 
-/// Same contract as Hierarchical, serial. Dependent constraint rows: if the factorization is singular or nearly so, the
-/// multipliers get a diagonal -d^2 (d^2 = 1e-4 in scaled variables, 1e-7 if rows are nearly dependent), and the
-/// solution is refined with the true matrix; the limit is the solution with least multipliers. The deficiency is then
-/// unknown (-1).
+/// The contract is that of AnySolver, serial.
+///
+/// Dependent constraint rows: if the factorization is singular or nearly so, the multipliers get a diagonal -d^2 (d^2 =
+/// 1e-4 in scaled variables, 1e-7 if rows are nearly dependent), and the solution is refined with the true matrix; the
+/// limit is the solution with least multipliers. The deficiency is then unknown (-1).
 class Monolithic {
  public:
   static bool
@@ -35,7 +36,7 @@ class Monolithic {
   void multiply(const tree::Walker& walker, const double* x, double* y) const;
   const FactorStatus& last_status() const;
   SolverCounters counters() const;
-  std::vector<int> blocks_not_unique() const;  ///< always empty: unknown here.
+  std::vector<int> blocks_not_unique() const;
 
  private:
   struct State;

@@ -20,7 +20,7 @@ enum class Library {
   cholmod,  ///< CHOLMOD: L D L^T [Chen et al. 2008]; symmetric matrices only. GPL: only in builds with BOUGH_WITH_GPL.
 };
 
-/// Same contract as Hierarchical, serial; allocates in factor().
+/// The contract is that of AnySolver, serial; allocates in factor().
 ///
 /// Dependent constraint rows: if two inverse iterations find a vector of multipliers only that the matrix maps nearly
 /// to zero, the multipliers get a diagonal -d^2 (d^2 = 1e-7 in scaled variables, 1e-10 for CHOLMOD), and the solution
@@ -49,7 +49,7 @@ class SparseOracle {
   void multiply(const tree::Walker& walker, const double* x, double* y) const;
   const FactorStatus& last_status() const;
   SolverCounters counters() const;
-  std::vector<int> blocks_not_unique() const;  ///< always empty: unknown here.
+  std::vector<int> blocks_not_unique() const;
 
  private:
   struct State;
