@@ -121,9 +121,9 @@ void lanes(benchmark::State& state, const E& element) {
   const LaneElement<E> e = make_lane_element(elements, 1, ports, 0);
   NodeLanes nodes[E::num_ports];
   for (int k = 0; k < E::num_ports; ++k) {
-    const double* from[num_lanes];
-    std::fill_n(from, num_lanes, numbers_of(c.nodes[k]));
-    set_lanes(nodes[k], from);
+    const auto* const from = reinterpret_cast<const double*>(&c.nodes[k]);
+    for (int i = 0; i < numbers_of_node<typename E::Group>; ++i)
+      reinterpret_cast<LanePack*>(&nodes[k])[i] = LanePack(from[i]);
   }
   LanePack multipliers[max_rows];
   for (int k = 0; k < max_rows; ++k) multipliers[k] = LanePack(c.multipliers[k]);

@@ -36,7 +36,6 @@ class Quotient {
   /// Eliminates all remaining blocks in one group, which assembles the given live cliques.
   int eliminate_rest(const std::vector<int>& rest, const std::vector<int>& forced);
 
-  int clique_of_element(int element) const { return element; }
   int clique_of_group(int group) const { return num_elements_ + group; }
   bool is_live(int clique) const { return live_[static_cast<std::size_t>(clique)] != 0; }
   bool is_eliminated(int block) const { return eliminated_[static_cast<std::size_t>(block)] != 0; }

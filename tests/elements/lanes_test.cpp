@@ -120,7 +120,7 @@ LaneResult lane_results(const std::vector<Sample<E>>& samples, bool has_inertia,
     const Sample<E>& s = samples[static_cast<std::size_t>(std::min(lane, count - 1))];
     for (int k = 0; k < E::num_ports; ++k)
       if (s.element.ports[k].node != ground)
-        from[k][lane] = numbers_of(s.nodes[static_cast<std::size_t>(s.element.ports[k].node)]);
+        from[k][lane] = reinterpret_cast<const double*>(s.nodes.data() + s.element.ports[k].node);
     const int n = list_laws(s.element, laws);
     for (int k = 0; k < n; ++k)
       law_values[static_cast<std::size_t>(k + 1)].set(lane, s.laws[static_cast<std::size_t>(laws[k])]);
@@ -128,7 +128,8 @@ LaneResult lane_results(const std::vector<Sample<E>>& samples, bool has_inertia,
     turns.set(lane, s.turns);
   }
   for (int k = 0; k < E::num_ports; ++k)
-    if (from[k][0] != nullptr) set_lanes(motions[static_cast<std::size_t>(k)], from[k]);
+    if (from[k][0] != nullptr)
+      lanes::gather_lanes(from[k], numbers_of_node<motion::Se3>, reinterpret_cast<LanePack*>(motions.data() + k));
   CarrierLanes frame_lanes;
   if (frame != nullptr) set_all_lanes(frame_lanes, *frame);
   FieldLanes field{

@@ -6,7 +6,7 @@
 ///   1. once, for each element position: checks `may_share_lanes` and makes a `LaneElement` (make_lane_element),
 ///     whose ports and
 ///      laws carry the numbers of the sub-domain's own nodes and laws, the same in all lanes;
-///   2. at each evaluation: fills one NodeLanes per node (set_lanes) and one pack per law and multiplier; where frames
+///   2. at each evaluation: fills one NodeLanes per node and one pack per law and multiplier; where frames
 ///      move, one CarrierLanes for each of them and for the observer (set_all_lanes), which are common to all lanes;
 ///   3. calls `evaluate_lanes` for each element; entry k of lane l of a result is out[k * num_lanes + l], k as in
 ///     `evaluate`.
@@ -77,12 +77,6 @@ inline constexpr bool has_numbers_of_node = numbers_of_node<G> == numbers &&
                                             sizeof(NodeMotionOn<G, LanePack>) == numbers * sizeof(LanePack);
 static_assert(has_numbers_of_node<motion::Se3, 33> && has_numbers_of_node<motion::Se2, 15>);
 static_assert(has_numbers_of_node<motion::Translations<3>, 15> && has_numbers_of_node<motion::Translations<1>, 5>);
-inline const double* numbers_of(const NodeMotion& node) { return reinterpret_cast<const double*>(&node); }
-
-/// The motions of eight nodes, one to a lane.
-inline void set_lanes(NodeLanes& to, const double* const (&from)[num_lanes]) {
-  lanes::gather_lanes(from, numbers_of_node<motion::Se3>, reinterpret_cast<LanePack*>(&to));
-}
 
 /// Copies the motion of a frame of prescribed motion into all lanes.
 inline void set_all_lanes(CarrierLanes& to, const CarrierMotion& from) {

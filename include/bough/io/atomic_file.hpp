@@ -45,7 +45,6 @@ class AtomicFile {
 
   /// False after `commit`, and after a failed write that could not be undone.
   [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
-  [[nodiscard]] std::size_t buffered() const { return buffer_.size(); }
   [[nodiscard]] std::size_t bytes_flushed() const { return flushed_; }
   /// Hash of the flushed content.
   [[nodiscard]] std::string digest() const { return digest_anew_.empty() ? digest_.text() : digest_anew_; }

@@ -268,7 +268,6 @@ struct Plan {
   Mobility mobility;
   std::vector<std::string> notes;  ///< choices that the plan made where the scene leaves them open, in words
 
-  bool is_reduced() const { return !std::holds_alternative<ModelOn<motion::Se3>>(model); }
   template <class G>
   bool is_on() const {
     return std::holds_alternative<ModelOn<G>>(model);
