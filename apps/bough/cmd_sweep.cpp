@@ -1,6 +1,7 @@
 /// bough sweep FILE: one scene in many cases.
 #include <algorithm>
 #include <iostream>
+#include <set>
 
 #include "arguments.hpp"
 #include "bough/io/number_text.hpp"
@@ -8,6 +9,8 @@
 #include "bough/io/read_sweep.hpp"
 #include "bough/run/estimate.hpp"
 #include "bough/study/cases.hpp"
+#include "bough/study/collect.hpp"
+#include "bough/study/journal.hpp"
 #include "case_run.hpp"
 #include "result_text.hpp"
 #include "shard_run.hpp"
@@ -39,6 +42,18 @@ bool has_case(const study::SweepCases& made, const std::string& name) {
   for (std::size_t i = 0; i < made.size(); ++i)
     if (made.name(i) == name) return true;
   return false;
+}
+
+/// How many cases, other than those named, have results in a folder. They would be lost, since the tables and the journal
+/// of a folder are replaced as a whole.
+std::size_t num_other_cases(const std::filesystem::path& folder, const std::vector<std::string>& only) {
+  std::set<std::string> others;
+  study::for_each_record(folder / study::journal_file,
+                         [&](const std::string&, const study::CaseResult& result, std::string_view) {
+                           const std::string& name = result.which.name;
+                           if (std::find(only.begin(), only.end(), name) == only.end()) others.insert(name);
+                         });
+  return others.size();
 }
 
 /// Lists the cases and what they will take, and runs none. Of many it looks at a thousand.
@@ -151,6 +166,12 @@ int sweep(const SweepArguments& arguments) {
     take_shard(*shard, source, whole, settings);
   } else {
     source.cases_table = std::move(whole.list);
+  }
+  if (const std::size_t others = arguments.only.empty() ? 0 : num_other_cases(settings.out, arguments.only);
+      others > 0) {
+    std::cerr << "bough: --case would replace the results of " << others << " other cases in " << settings.out.string()
+              << ": give another folder with --out\n";
+    return exit_bad_input;
   }
   const io::OutputCollection collection(settings.out, "sweep", whole.inputs);
   const study::CaseTable results = run_cases(whole.cases, settings, source, collection);

@@ -144,6 +144,10 @@ expect 2 'no shard' batch --collect "$gallery" --out sweep.none
 expect 0 'sbatch' sweep "$sweeps/rod_chain_lengths.json" --out sweep.jobs --export slurm
 holds grep -q -- '--shard "${SLURM_ARRAY_TASK_ID}/1"$' sweep.jobs/job.slurm
 # two batches do not write into one folder
+cp sweep.two/batch.csv whole.csv
+expect 2 'results of 24 other cases in sweep.two: give another folder' sweep "$sweeps/rod_chain_lengths.json" --out sweep.two --case 07
+holds cmp whole.csv sweep.two/batch.csv
+expect 0 '1 cases' sweep "$sweeps/rod_chain_lengths.json" --out sweep.case --case 07
 "$program" sweep "$sweeps/rod_chain_lengths.json" --out sweep.busy --threads 1 --set /analysis/step_size=1e-6 > /dev/null 2>&1 &
 busy=$!
 for k in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do test -e sweep.busy/journal.jsonl && break; sleep 0.1; done
