@@ -55,8 +55,10 @@ int view(const ViewArguments& given) {
     const std::filesystem::path batch = arguments.directory;
     arguments.directory /= std::filesystem::path(given.which).filename();
     if (!std::filesystem::exists(arguments.directory) && !unpack_case(batch, given.which)) {
-      std::cerr << "bough: the results of case " << given.which << " were not kept: bough sweep FILE --case "
-                << given.which << " --out DIR runs it again\n";
+      std::cerr << "bough: " << batch.string() << " holds no results of a case " << given.which
+                << ": either it has no such case (" << (batch / study::journal_file).string()
+                << " names them), or they were not kept, and bough sweep FILE --case " << given.which
+                << " --out ANOTHER runs it again\n";
       return exit_bad_input;
     }
   }

@@ -410,11 +410,16 @@ SummaryFile read_summary(const std::filesystem::path& path) {
 SummaryFile read_whole_summary(const std::filesystem::path& directory, const std::vector<std::string>& names) {
   const std::string run_again = "; run the scene again, into a new folder";
   const auto is_there = [&](const std::string& name) { return std::filesystem::exists(directory / name); };
+  if (!std::filesystem::exists(directory)) throw std::runtime_error("there is no folder " + directory.string());
+  const std::optional<Manifest> manifest = read_manifest(directory);
+  if (!is_there("summary.json") && manifest && manifest->made_by != "run")
+    throw std::runtime_error(
+        directory.string() + " holds results of bough " + manifest->made_by + ", not of one run" +
+        (is_there("batch.csv") ? ": name the folder of a case in it, or with bough view a --case" : ""));
   if (!is_there("summary.json"))
     throw std::runtime_error(directory.string() + " has no summary.json: the run did not end" + run_again);
   SummaryFile summary = read_summary(directory / "summary.json");
-  if (const std::optional<Manifest> manifest = read_manifest(directory);
-      manifest && manifest->state == FolderState::unfinished)
+  if (manifest && manifest->state == FolderState::unfinished)
     throw std::runtime_error(directory.string() + ": its run could not write all results" + run_again);
   for (const std::string& name : names) {
     const auto listed = std::find_if(summary.files.begin(), summary.files.end(),

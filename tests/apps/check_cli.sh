@@ -101,6 +101,9 @@ holds test ! -e sweep.many/008
 holds test "$(ls sweep.many | wc -l)" -le 12
 expect 0 'view.html' view sweep.many --case 008
 "$program" run good.json --out many.one --set /analysis/end_time=0.02 --set "/bodies/bob/mass=$(sed -n 's/^008,//p' sweep.many/cases.csv)" > /dev/null
+expect 2 'no such case' view sweep.two --case 7
+expect 2 'holds results of bough sweep, not of one run: name the folder of a case' view sweep.two
+expect 2 'there is no folder sweep.none' view sweep.none
 holds cmp many.one/history.csv sweep.many/008/history.csv
 holds cmp many.one/motion.bin sweep.many/008/motion.bin
 expect 0 '210 of 210 cases are done' sweep many.json --out sweep.many --resume
