@@ -80,6 +80,18 @@ holds cmp expanded.out/history.csv varied.out/history.csv
 expect 2 'no parameter' expand "$gallery/rod_chain.json" --set /parameters/M=3
 expect 2 'mass' expand bad.json
 
+# the chain of the README, with the options given there
+readme=$gallery/../../README.md
+awk '/^```json/ { text = ""; inside = 1; next } /^```/ { if (inside && text ~ /"repeat"/) printf "%s", text; inside = 0 }
+     inside { text = text $0 "\n" }' "$readme" > chain.json
+for verb in run expand; do
+  options=$(sed -n "s/^    bough $verb chain.json //p" "$readme")
+  holds test -n "$options"
+  # shellcheck disable=SC2086
+  expect 0 . $verb chain.json $options
+  holds test -z "$(grep -e DOUBT printed)"
+done
+
 # a sweep: the table does not depend on threads or on what is kept; what is measured is a column
 sweeps=$gallery/../sweeps
 expect 0 '25 cases, 5 left out' sweep "$sweeps/rod_chain_lengths.json" --dry-run
@@ -89,6 +101,9 @@ for file in batch.csv batch.json batch.html cases.csv; do holds cmp sweep.one/$f
 holds grep -q ',N,l,g,lowest,reach$' sweep.one/batch.csv
 expect 0 'view.html' view sweep.one --case 07
 expect 2 'were not kept' view sweep.two --case 07
+expect 2 'no such case' view sweep.two --case 7
+expect 2 'holds results of bough sweep, not of one run: name the folder of a case' view sweep.two
+expect 2 'there is no folder sweep.none' view sweep.none
 # of many cases results are stored: failed and chosen ones have folders, and view takes others out of the store
 cat > many.json <<EOF
 {"schema_version": 1, "scene": "good.json", "set": [{"pointer": "/analysis/end_time", "value": 0.02}],
@@ -101,9 +116,6 @@ holds test ! -e sweep.many/008
 holds test "$(ls sweep.many | wc -l)" -le 12
 expect 0 'view.html' view sweep.many --case 008
 "$program" run good.json --out many.one --set /analysis/end_time=0.02 --set "/bodies/bob/mass=$(sed -n 's/^008,//p' sweep.many/cases.csv)" > /dev/null
-expect 2 'no such case' view sweep.two --case 7
-expect 2 'holds results of bough sweep, not of one run: name the folder of a case' view sweep.two
-expect 2 'there is no folder sweep.none' view sweep.none
 holds cmp many.one/history.csv sweep.many/008/history.csv
 holds cmp many.one/motion.bin sweep.many/008/motion.bin
 expect 0 '210 of 210 cases are done' sweep many.json --out sweep.many --resume
@@ -132,6 +144,10 @@ holds test -s sweep.one/07/history.csv
 holds test ! -e sweep.two/07
 expect 0 '1 cases' sweep "$sweeps/rod_chain_lengths.json" --out sweep.case --case 07
 holds cmp sweep.one/07/history.csv sweep.case/07/history.csv
+cp sweep.two/batch.csv whole.csv
+expect 2 'results of 24 other cases in sweep.two: give another folder' sweep "$sweeps/rod_chain_lengths.json" --out sweep.two --case 07
+holds cmp whole.csv sweep.two/batch.csv
+expect 0 '1 cases' sweep "$sweeps/rod_chain_lengths.json" --out sweep.case --case 07
 expect 3 'are left' sweep "$sweeps/rod_chain_lengths.json" --out sweep.stopped --threads 1 --stop-after 0.02 --quiet
 expect 0 'cases are done' sweep "$sweeps/rod_chain_lengths.json" --out sweep.stopped --resume
 holds cmp sweep.one/batch.csv sweep.stopped/batch.csv
@@ -147,10 +163,6 @@ expect 2 'no shard' batch --collect "$gallery" --out sweep.none
 expect 0 'sbatch' sweep "$sweeps/rod_chain_lengths.json" --out sweep.jobs --export slurm
 holds grep -q -- '--shard "${SLURM_ARRAY_TASK_ID}/1"$' sweep.jobs/job.slurm
 # two batches do not write into one folder
-cp sweep.two/batch.csv whole.csv
-expect 2 'results of 24 other cases in sweep.two: give another folder' sweep "$sweeps/rod_chain_lengths.json" --out sweep.two --case 07
-holds cmp whole.csv sweep.two/batch.csv
-expect 0 '1 cases' sweep "$sweeps/rod_chain_lengths.json" --out sweep.case --case 07
 "$program" sweep "$sweeps/rod_chain_lengths.json" --out sweep.busy --threads 1 --set /analysis/step_size=1e-6 > /dev/null 2>&1 &
 busy=$!
 for k in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do test -e sweep.busy/journal.jsonl && break; sleep 0.1; done
