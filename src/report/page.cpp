@@ -216,8 +216,11 @@ std::string page_html(const RunFiles& run, const PictureOptions& options, const 
   const std::string title = run.summary && !run.summary->title.empty() ? run.summary->title : run.name;
   Document page(title);
   add_heading(page, run);
-  if (other != nullptr)
+  if (other != nullptr) {
     page.paragraph("A: " + what_ran(run) + ". B, dashed and in orange: " + what_ran(*other) + ".", Tone::soft);
+    if (!run.motion.empty() && other->motion.empty())
+      page.paragraph("The picture shows A alone: B did not store its motion.", Tone::soft);
+  }
   add_motion(page, run, options);
   add_signals(page, run, other);
   add_plots(page, run);

@@ -114,6 +114,12 @@ def make_pages():
     make_view("softer", PARTS, "--set", "/springs/coil/stiffness=20")
     call("view", "softer", "parts")
     pages.append("softer/view.html")
+    # Of two runs one of which stored no motion, the picture shows the other or none.
+    make_view("moved", PARTS, "--set", "/springs/coil/stiffness=20")
+    make_view("still", {**PARTS, "output": {"motion": False}})
+    for first, second in (("moved", "still"), ("still", "moved")):
+        call("view", first, second)
+        pages.append(f"{first}/view.html")
     pages.append(make_view("signals", SIGNALS))
     make_view("of_signals", {**SIGNALS, "signals": SIGNALS["signals"][:2], "sensors": SIGNALS["sensors"][:2]},
               "--set", "/springs/coil/stiffness=20")
@@ -251,6 +257,14 @@ def check_pairs(chromium, page):
     return faults + chromium.faults
 
 
+def check_still(chromium, page):
+    """Of two runs the second of which stored no motion, the picture shows the first, and the page says so."""
+    chromium.open(page)
+    scenes, drawn, text = chromium.evaluate("[boughView.scenes.length, boughView.drawn > 0, document.body.textContent]")
+    seen = scenes == 1 and drawn and "B did not store its motion" in text
+    return chromium.faults + ([] if seen else [f"{page}: {scenes} runs are in the picture, drawn: {drawn}"])
+
+
 def check_signals(chromium, page, runs):
     """The list of signals shows the values of the history at the time of the picture, with units, of all runs."""
     faults = []
@@ -307,6 +321,7 @@ def main():
                 "far travel": check_far(chromium, "far/view.html"),
                 "zero": check_zero(chromium, "roll_up/view.html", 1) + check_zero(chromium, "swing/view.html", 0),
                 "two runs": check_pairs(chromium, "softer/view.html"),
+                "motion of one of two runs": check_still(chromium, "moved/view.html"),
                 "signals": check_signals(chromium, "signals/view.html", ["signals"]) +
                            check_signals(chromium, "signals/both.html", ["signals", "of_signals"]),
                 "maps of colours": check_maps(chromium, "robot_arm/view.html")}

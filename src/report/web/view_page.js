@@ -22,12 +22,17 @@ async function startView() {
   window.boughView = view;
   startPlots(view);
   startSignals(view);
-  if (!first.times.length || !first.data.step || !first.data.step.length) return showDrawing("");
+  if (!hasMotion(first)) return showDrawing("");
   // Edges of many thin parts are not smoothed: in software that takes as long as the lines themselves.
   const canvas = document.createElement("canvas"),
     context = canvas.getContext("webgl2", {antialias: first.numPoints < 8000, alpha: false});
   if (!context) return showDrawing("This browser shows no WebGL: the drawing stands for the moving picture.");
   startPicture(view, canvas, new THREE.WebGLRenderer({canvas: canvas, context: context}));
+}
+
+// A run that stored no motion has histories alone.
+function hasMotion(run) {
+  return run.times.length > 0 && run.data.step !== undefined && run.data.step.length > 0;
 }
 
 function startPicture(view, canvas, renderer) {
@@ -55,8 +60,8 @@ function startPicture(view, canvas, renderer) {
   const seen = new ViewCamera(stage, canvas, first, view.request),
     scene = new THREE.Scene();
   scene.add(new THREE.AmbientLight("#ffffff", 1.6), seen.camera);
-  view.scenes = runs.map(function (run, k) {
-    const s = new RunScene(run, first.size, k > 0 ? "#eb6834" : "");
+  view.scenes = runs.filter(hasMotion).map(function (run) {
+    const s = new RunScene(run, first.size, run === first ? "" : "#eb6834");
     s.root.position.set(...run.origin.map((o, c) => o - first.origin[c]));
     scene.add(s.root);
     return s;
