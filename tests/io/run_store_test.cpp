@@ -31,7 +31,8 @@ TEST_F(RunStores, records_come_back_with_all_their_bytes) {
   std::vector<StoredPlace> places;
   {
     RunStore store(scratch_.path());
-    for (int k = 0; k < 3; ++k) places.push_back(store.add({two_files[0], {"n", std::string(10'000 * k, 'x')}}));
+    for (std::size_t k = 0; k < 3; ++k)
+      places.push_back(store.add({two_files[0], {"n", std::string(10'000 * k, 'x')}}));
     places.push_back(store.add({}));
   }
   {

@@ -53,7 +53,9 @@ TEST(Monotone, no_interval_overshoots) {
       for (int k = 0; k < 50; ++k) {
         const LawValue f = law.at(times[i] + width * k / 50.0);
         EXPECT_GE(f.rate * (rise > 0.0 ? 1.0 : -1.0), -1e-9 * std::abs(rise) / width) << "sample " << sample;
-        if (rise == 0.0) EXPECT_EQ(f.rate, 0.0);
+        if (rise == 0.0) {
+          EXPECT_EQ(f.rate, 0.0);
+        }
       }
     }
   }

@@ -207,7 +207,7 @@ TEST(MakePlan, integrates_a_driven_rate_from_the_initial_angle) {
   j.name = "axle";
   j.kind = scene::JointKind::revolute;
   j.second.to = "wheel";
-  j.drives.push_back({"angle", true, laws::make_constant(2.0)});
+  j.drives.push_back({"angle", true, laws::make_constant(2.0), ""});
   s.joints.push_back(j);
   const Plan p = make_plan(s);
   const auto& joint = array_of<elements::Joint>(p.elements)[0];

@@ -34,7 +34,7 @@ TEST(GivenVelocities, a_crank_that_40_windows_hold_back_is_doubted_with_what_was
   EXPECT_TRUE(turn.is_angular != shift.is_angular);
   for (const records::ChangedVelocity& v : {turn, shift}) {
     EXPECT_EQ(v.of, s.initial_velocities[0].of);
-    const int axis = v.is_angular ? 2 : 0;
+    const std::size_t axis = v.is_angular ? 2 : 0;
     EXPECT_EQ(v.asked[axis], v.is_angular ? -1.0 : 0.5);
     EXPECT_GT(v.got[axis] / v.asked[axis], 0.001);
     EXPECT_LT(v.got[axis] / v.asked[axis], 0.05) << "one crank moves 81 bodies";

@@ -107,11 +107,11 @@ TEST(SceneProblems, a_drive_that_starts_elsewhere_is_warned_about_and_counts_who
   s.analysis.kind = AnalysisKind::dynamics;
   s.analysis.end_time = 1.0;
   s.joints[0].kind = JointKind::revolute;
-  s.joints[0].drives = {{"angle", false, laws::make_constant(0.5)}};
+  s.joints[0].drives = {{"angle", false, laws::make_constant(0.5), ""}};
   EXPECT_EQ(places(s), (Places{"warning joints 0 drives/0/law"}));
   s.joints[0].drives[0].law = laws::make_constant(4 * 3.14159265358979323846);
   EXPECT_EQ(places(s), Places{});
-  s.joints[0].drives[0] = {"angle", true, laws::make_constant(0.5)};
+  s.joints[0].drives[0] = {"angle", true, laws::make_constant(0.5), ""};
   EXPECT_EQ(places(s), Places{}) << "a rate may start at any value";
 }
 

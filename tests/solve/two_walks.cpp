@@ -36,7 +36,9 @@ class TwoWalks {
     auto before = [&](int visit) {
       const auto v = static_cast<std::size_t>(visit);
       for (std::size_t below = 0; below < v; ++below)
-        if (visits_.parent[below] == visit) EXPECT_EQ(up[below], 1) << below;
+        if (visits_.parent[below] == visit) {
+          EXPECT_EQ(up[below], 1) << below;
+        }
       ++up[v];
       for (const int u : unknowns_[v]) rhs[u] = b[u];
       if (factor)
@@ -46,7 +48,9 @@ class TwoWalks {
     };
     auto after = [&](int visit) {
       const auto v = static_cast<std::size_t>(visit);
-      if (visits_.parent[v] >= 0) EXPECT_EQ(down[static_cast<std::size_t>(visits_.parent[v])], 1);
+      if (visits_.parent[v] >= 0) {
+        EXPECT_EQ(down[static_cast<std::size_t>(visits_.parent[v])], 1);
+      }
       ++down[v];
       for (const int u : unknowns_[v]) seen[u] = x[u];
     };

@@ -82,7 +82,7 @@ TEST(MakeConsistent, refuses_contradicting_drives_by_name) {
     j.name = rate == 1.0 ? "slow" : "fast";
     j.kind = scene::JointKind::revolute;
     j.second.to = "wheel";
-    j.drives.push_back({"angle", true, laws::make_constant(rate)});
+    j.drives.push_back({"angle", true, laws::make_constant(rate), ""});
     s.joints.push_back(j);
   }
   Rig rig(s);
@@ -165,7 +165,7 @@ TEST(MakeConsistent, refuses_rates_that_contradict_each_other_in_any_unit) {
         j.kind = scene::JointKind::prismatic;
         j.first.offset.x = b.placement.pose.x;
         j.second.to = "slider";
-        j.drives.push_back({"displacement", true, laws::make_constant(rate * length)});
+        j.drives.push_back({"displacement", true, laws::make_constant(rate * length), ""});
         s.joints.push_back(j);
       }
       Rig rig(s);

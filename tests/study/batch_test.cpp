@@ -252,7 +252,7 @@ TEST_F(Batch, rows_of_a_case_without_a_folder_are_kept_when_its_process_dies) {
       [](const auto&...) {}, [] { return false; });
   ASSERT_EQ(results.size(), 4u);
   EXPECT_EQ(results[0].status, CaseStatus::ok);
-  for (const std::size_t k : {1, 3}) {
+  for (const std::size_t k : {1u, 3u}) {
     EXPECT_EQ(results[k].status, CaseStatus::crashed);
     EXPECT_NE(results[k].cause.find("signal 6; its rows are in "), std::string::npos) << results[k].cause;
     const auto history = io::read_history(results[k].which.directory / "history.csv");
