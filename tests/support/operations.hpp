@@ -1,5 +1,5 @@
 #pragma once
-/// Counts what looking for names costs: comparisons of texts (memcmp) and allocations of memory, of which neither
+/// Counts what looking for names costs: comparisons of texts (memcmp, bcmp) and allocations of memory, of which neither
 /// depends on the machine or on what else runs on it. Include it in one file of a program: it defines the functions
 /// that it counts.
 #include <algorithm>
@@ -42,6 +42,8 @@ extern "C" int memcmp(const void* a, const void* b, std::size_t n) noexcept {
     if (x[i] != y[i]) return x[i] < y[i] ? -1 : 1;
   return 0;
 }
+/// What clang calls where only equality matters.
+extern "C" int bcmp(const void* a, const void* b, std::size_t n) noexcept { return memcmp(a, b, n); }
 
 void* operator new(std::size_t size) {
   ++bough::test::operations.allocations;
