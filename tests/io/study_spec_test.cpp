@@ -7,6 +7,7 @@
 
 #include "bough/io/read_study.hpp"
 #include "support/scratch_directory.hpp"
+#include "support/source_dir.hpp"
 #include "support/untrapped.hpp"
 
 namespace bough::io {
@@ -238,6 +239,17 @@ TEST_F(Studies, a_grid_of_more_runs_than_anybody_waits_for_is_a_problem) {
   ASSERT_FALSE(file.ok());
   EXPECT_NE(file.problems.front().text().find("a study has at most 5000 runs"), std::string::npos)
       << file.problems.front().text();
+}
+
+TEST(StandingStudies, are_read_with_the_scenes_of_all_their_runs) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(support::source_dir() / "data" / "studies")) {
+    if (entry.path().extension() != ".json") continue;
+    const StudyFile file = read_study(entry.path());
+    EXPECT_TRUE(file.ok()) << entry.path() << ": " << file.problems.front().text();
+    ++count;
+  }
+  EXPECT_GE(count, 8);
 }
 
 TEST(CanonicalScene, is_the_same_for_the_same_scene_and_not_for_another) {
