@@ -57,12 +57,14 @@ TEST(Outlook, has_the_counts_of_trial_steps) {
   EXPECT_NE(measured, 1.0) << "the step is as long as measured, not as modelled";
   for (const OutlookDecision& d : outlook.decisions) {
     if (!d.has_saving) continue;
-    if (d.decision.name == "reuse")
+    if (d.decision.name == "reuse") {
       EXPECT_GT(d.without.factorizations, 1.9) << "each iteration has a factorization of its own";
-    else
+    } else {
       EXPECT_EQ(d.without.iterations, work->iterations) << d.decision.name;
-    if (d.decision.name != "reuse" && d.decision.name != "symmetric")
+    }
+    if (d.decision.name != "reuse" && d.decision.name != "symmetric") {
       EXPECT_NEAR(d.without.step_seconds() / d.without.model_seconds / measured, 1.0, 1e-12) << d.decision.name;
+    }
   }
 }
 
