@@ -86,7 +86,8 @@ std::string plan_text(const run::Outlook& o) {
           std::to_string(o.fronts) + " fronts in lockstep\n";
   text += "a step, about " + seconds_text(e.step_seconds()) + " on one thread: elements " +
           seconds_text(e.evaluate_seconds) + ", factor " + seconds_text(e.factor_seconds) + " (" +
-          rounded_text(e.factorizations, 2) + " of " + rounded_text(1e-6 * e.factor_flops, 3) + " Mflop), solve " +
+          rounded_text(e.factorizations, 2) +
+          (e.factor_flops > 0.0 ? " of " + rounded_text(1e-6 * e.factor_flops, 3) + " Mflop" : "") + "), solve " +
           seconds_text(e.solve_seconds) + ", nodes " + seconds_text(e.other_seconds) + "\n";
   text +=
       "  by " + rounded_text(e.iterations, 2) + " iterations, " + rounded_text(e.evaluations, 2) + " evaluations and " +

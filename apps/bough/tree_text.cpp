@@ -250,8 +250,8 @@ std::string tree_text(const Profile& p, const TextStyle& style, int most_rows) {
   std::string text = io::printable(p.scene) + ": " + std::to_string(root.subtree_unknowns) + " unknowns, " +
                      std::to_string(p.subdomains.size()) + " sub-domains on " + std::to_string(p.levels.size()) +
                      " levels, " + std::to_string(p.num_in_lanes) + " in lockstep; " + std::to_string(p.steps) +
-                     " steps, " + std::to_string(p.factorizations) + " factorizations, " + std::to_string(p.threads) +
-                     (p.threads == 1 ? " thread\n" : " threads\n");
+                     (p.steps == 1 ? " step, " : " steps, ") + std::to_string(p.factorizations) + " factorizations, " +
+                     std::to_string(p.threads) + (p.threads == 1 ? " thread\n" : " threads\n");
   text += TreeText(p, style, most_rows).text();
   const records::StepProfile& s = p.step;
   text += "Step " + seconds_text(s.total) + ": upward with factorization " + seconds_text(s.factor) + ", upward " +

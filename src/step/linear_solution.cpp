@@ -119,7 +119,8 @@ std::optional<Trouble> LinearSolution::factor(bool rescale, const elements::Slop
   }
   if (status.outcome == solve::FactorOutcome::not_finite) return Trouble{"a tangent is not finite"};
   if (const char* why = explain_backend(status.outcome)) return Trouble{why};
-  return Trouble{explain_singular(status)};
+  const char* advice = slopes.mass_only ? "; every part that can move needs inertia or has to be held by a joint" : "";
+  return Trouble{explain_singular(status) + advice};
 }
 
 /// Explains a singular matrix by the free or massless motions that the plan has found, or else by the unknown that has

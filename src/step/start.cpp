@@ -35,9 +35,7 @@ void set_rows(const System& system, std::vector<double>& to, From&& from) {
 /// Evaluates and factors the matrix [M G^T; G 0] at the present positions.
 std::optional<Trouble> factor_mass(System& system, const State& state) {
   if (auto t = system.evaluate(state, mass_slopes, true)) return t;
-  if (auto t = system.linear().factor(true, mass_slopes))
-    return Trouble{t->text + "; every part that can move needs inertia or has to be held by a joint"};
-  return std::nullopt;
+  return system.linear().factor(true, mass_slopes);
 }
 
 /// Names the joints whose constraints contradict each other, for a message.

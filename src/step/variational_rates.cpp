@@ -53,8 +53,7 @@ std::optional<Trouble> VariationalOn<G>::factor_mass(const State& state, double 
   };
   mass_.walker().for_each_chunk(static_cast<std::int64_t>(mass_.plan().directory.size()), element_grain,
                                 tree::make_chunk(by_element));
-  if (const auto t = mass_.linear().factor(true, mass_slopes))
-    return Trouble{t->text + "; every part that can move needs inertia or has to be held by a joint"};
+  if (const auto t = mass_.linear().factor(true, mass_slopes)) return t;
   mass_step_ = h;
   return std::nullopt;
 }

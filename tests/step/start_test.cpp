@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bough/solve/reference/sparse_oracle.hpp"
 #include "small_scenes.hpp"
 #include "support/rig.hpp"
 
@@ -68,6 +69,20 @@ TEST(MakeConsistent, refuses_a_part_without_inertia_by_name) {
   const StartReport report = make_consistent(rig.system, rig.state, true, 1e-3);
   EXPECT_FALSE(report.ok);
   EXPECT_NE(report.cause.find("ghost"), std::string::npos) << report.cause;
+  EXPECT_NE(report.cause.find("needs inertia"), std::string::npos) << report.cause;
+}
+
+/// A solver that is missing has nothing to do with inertia.
+TEST(MakeConsistent, a_library_that_is_not_part_of_the_build_is_named_alone) {
+  if (solve::SparseOracle::available(solve::Library::umfpack)) GTEST_SKIP() << "this build has UMFPACK";
+  scene::Scene s = test::make_chain(2);
+  s.solver.form = scene::SolverForm::monolithic;
+  s.solver.library = scene::SolverLibrary::umfpack;
+  Rig rig(s);
+  const StartReport report = make_consistent(rig.system, rig.state, true, 1e-3);
+  EXPECT_FALSE(report.ok);
+  EXPECT_NE(report.cause.find("UMFPACK"), std::string::npos) << report.cause;
+  EXPECT_EQ(report.cause.find("inertia"), std::string::npos) << report.cause;
 }
 
 TEST(MakeConsistent, refuses_contradicting_drives_by_name) {
