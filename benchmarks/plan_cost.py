@@ -118,9 +118,10 @@ def main():
           "iterations and factorizations a step, predicted and measured; trial steps")
     for c in cases:
         step, modelled = c.step, c.ratio("model_step_s") / machine
-        print(f"{c.name:42s} {c.ratio() / trial:5.2f} {modelled:5.2f}  {1e6 * step['step_s']:9.2f} {1e6 * c.whole:9.2f} "
-              f"{1e6 * c.upward:9.2f} {1e6 * c.downward:9.2f}  {step['iterations']:5.2f} {c.iterations:5.2f}  "
-              f"{step['factorizations']:5.2f} {c.factorizations:5.2f}  {step['trial_steps']:3d}")
+        print(f"{c.name:42s} {c.ratio() / trial:5.2f} {modelled:5.2f}  {1e6 * step['step_s']:9.2f} "
+              f"{1e6 * c.whole:9.2f} {1e6 * c.upward:9.2f} {1e6 * c.downward:9.2f}  "
+              f"{step['iterations']:5.2f} {c.iterations:5.2f}  {step['factorizations']:5.2f} {c.factorizations:5.2f}  "
+              f"{step['trial_steps']:3d}")
     print(f"within 1.3: by trial steps {near}, by the model {inside} of {len(cases)}")
 
 

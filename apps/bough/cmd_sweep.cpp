@@ -44,8 +44,8 @@ bool has_case(const study::SweepCases& made, const std::string& name) {
   return false;
 }
 
-/// How many cases, other than those named, have results in a folder. They would be lost, since the tables and the journal
-/// of a folder are replaced as a whole.
+/// How many cases, other than those named, have results in a folder. They would be lost, since the tables and the
+/// journal of a folder are replaced as a whole.
 std::size_t num_other_cases(const std::filesystem::path& folder, const std::vector<std::string>& only) {
   std::set<std::string> others;
   study::for_each_record(folder / study::journal_file,

@@ -14,7 +14,8 @@ struct StepWork {
 };
 
 /// Takes the first `steps` accepted steps of a run on one thread, without results. Counts the work of the later half of
-/// them, which the start disturbs less, and measures its time. Takes fewer if the run ends or fails before; nothing if it takes none.
+/// them, which the start disturbs less, and measures its time. Takes fewer steps if the run ends or fails before;
+/// nothing if it takes none.
 std::optional<StepWork> try_steps(const scene::Scene& scene, int steps);
 
 }  // namespace bough::run

@@ -52,8 +52,9 @@ struct Outlook {
 /// Builds plan, tree and solver of a scene, once as given and once without each decision that can be excluded. Takes up
 /// to 2048 steps of a run, once for all decisions but those that change the iteration; fewer where steps are
 /// long, none where eight would take a second by the model. The numbers of work per step that they give do not depend
-/// on the machine; the seconds do, and vary from call to call. A scene without a decision that leaves the iteration as
-/// it is takes the seconds of the model times the ratio of measured and modelled time of the scene as given.
+/// on the machine; the seconds do, and vary from call to call. Costs without a decision are those of the model, times
+/// the ratio of measured and modelled time: of own trial steps where the decision changes the iteration, and otherwise
+/// of the scene as given.
 /// Precondition: problems_in(scene) is empty.
 Outlook look_ahead(const scene::Scene& scene);
 
