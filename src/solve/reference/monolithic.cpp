@@ -59,11 +59,7 @@ struct Monolithic::State {
 };
 
 Monolithic::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o)
-    : tree(t),
-      options(o),
-      elements(graph, t),
-      batches(elements.single_batches()),
-      sparse(elements, MultiplierEntries::diagonal) {
+    : tree(t), options(o), elements(graph, t), batches(elements.single_batches()), sparse(elements) {
   const std::size_t n = at(tree.num_unknowns());
   for (auto* v : {&scales.row, &scales.column, &scales.weight}) v->assign(n, 1.0);
   for (auto* v : {&rhs, &residual, &work, &x_scaled}) v->assign(n, 0.0);

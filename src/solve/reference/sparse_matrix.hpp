@@ -11,14 +11,12 @@ namespace bough::solve {
 
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-/// Entries between the multipliers of one block, which do not act on each other.
-enum class MultiplierEntries { all, diagonal };
-
-/// D_r A D_c as one sparse matrix. The pattern is made once; all diagonal entries are in it.
+/// D_r A D_c as one sparse matrix. The pattern is made once. All diagonal entries are in it, and none between different
+/// multipliers of one block, which are zero (blocks::BlockKind::multiplier).
 class SparseAssembly {
  public:
-  SparseAssembly(const ElementStore& elements, MultiplierEntries between);
-  /// Sets the values; multipliers' diagonals lowered by `lowered` in their exact scaling.
+  explicit SparseAssembly(const ElementStore& elements);
+  /// Sets the values; multipliers' diagonals lowered by `lowered` in their exact scaling. No allocation.
   void assemble(const ElementStore& elements, const Scales& scales, double lowered);
   const SparseMatrix& matrix() const { return matrix_; }
   SparseMatrix& matrix() { return matrix_; }
@@ -28,11 +26,14 @@ class SparseAssembly {
   double asymmetry() const;
 
  private:
+  template <class Visit>
+  void for_entries(const ElementStore& elements, Visit&& visit) const;
+
   SparseMatrix matrix_;
-  MultiplierEntries between_;
-  std::vector<int> slots_;  ///< place of every entry of every element, elements ascending, row by row
+  std::vector<int> unknowns_;  ///< of every element, elements ascending
+  std::vector<int> slots_;     ///< place of every entry of every element, row by row; -1: not in the pattern
   std::vector<int> diagonal_;
-  std::vector<std::uint8_t> is_multiplier_;
+  std::vector<int> multiplier_block_;  ///< by unknown; -1: a motion
 };
 
 /// Eigen's SparseLU. Backends have these four functions: factor, solve (x must not be b), flops, memory_bytes.

@@ -33,7 +33,7 @@ struct SparseOracle::State {
         options(o),
         elements(graph, t),
         batches(elements.single_batches()),
-        sparse(elements, MultiplierEntries::all),
+        sparse(elements),
         buffers(at(t.num_unknowns())),
         probe(at(t.num_unknowns())),
         response(at(t.num_unknowns())) {
