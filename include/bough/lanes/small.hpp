@@ -89,6 +89,7 @@ BOUGH_INLINE S dot(const Vec<S, N>& a, const Vec<S, N>& b) {
   for (int i = 1; i < N; ++i) r = multiply_add(a.v[i], b.v[i], r);
   return r;
 }
+/// Of vectors whose squares neither overflow nor vanish; motion::norm takes any.
 template <class S, int N>
 BOUGH_INLINE S length_of(const Vec<S, N>& a) {
   using std::sqrt;
