@@ -272,6 +272,7 @@ StepReport ArcLengthPath::follow(State& state, double length) {
   for (std::size_t n = 0; n < moved_.size(); ++n) along += inner(moved_[n], direction_[n]);
   if (along < least_alignment * length) return fail("the path bends sharply, or the step turned back");
   if (const auto t = check_shape(system_, state)) return fail(t->text);
+  if (const auto t = check_closed(system_, state)) return fail(t->text);
   settle(system_, state);
   return report;
 }

@@ -85,7 +85,9 @@ StepReport try_load(System& system, State& state, const StepOptions& options, do
     apply_damped(system, state, report.change);
   }
   if (const auto t = check_shape(system, state)) return fail(t->text);
+  if (const auto t = check_closed(system, state)) return fail(t->text);
   settle(system, state);
+  system.signals().observe(state, 0.0);
   return report;
 }
 

@@ -18,9 +18,11 @@ struct Edge {
 };
 
 /// Edges of all elements that connect nodes, sorted by rank and, within a rank, in the order of the elements. The
-/// sections of beams are numbered in the order of the elements, too.
+/// sections of beams are numbered in the order of the elements, too. Nodes without unknowns come first: they belong to
+/// the ground, and a beam between two of them closes a loop.
 std::vector<Edge> edges_of(const plan::Plan& plan) {
   std::vector<Edge> edges;
+  for (const plan::HeldNode& held : plan.held) edges.push_back({-1, -1, held.node});
   int section = 0;
   for (const plan::ElementPlace& place : plan.directory)
     plan::with_element(plan.elements, place, [&](const auto& e) {

@@ -207,4 +207,16 @@ void accept_turns(const System& system, State& state) {
   state.visit([&]<class G>(const NodesOn<G>&) { count(system.instant().field_on<G>(state)); });
 }
 
+std::optional<Trouble> check_closed(const System& system, const State& state) {
+  constexpr double open = 1e-6;  // of the size of the parts at the joint, or rad: far above what iterations leave
+  const Violations gaps = system.constraints().violations(state);
+  if (gaps.relative_position <= open) return std::nullopt;
+  const std::string joint = gaps.open_joint < 0
+                                ? "a joint"
+                                : system.plan().joints[static_cast<std::size_t>(gaps.open_joint)].what + " '" +
+                                      system.plan().joints[static_cast<std::size_t>(gaps.open_joint)].name + "'";
+  return Trouble{joint + " is left open by " + std::to_string(gaps.relative_position) +
+                 " of the size of the parts that meet in it (or rad)"};
+}
+
 }  // namespace bough::step

@@ -75,4 +75,7 @@ bool is_at_floor(const System& system, const ResidualSize& r, double tolerance);
 /// Describes the largest part of the residual for a message.
 std::string describe(System& system, ResidualSize r, double tolerance);
 
+/// In statics, whether all joints are closed, also those without unknowns, whose rows no residual shows.
+[[nodiscard]] std::optional<Trouble> check_closed(const System& system, const State& state);
+
 }  // namespace bough::step
