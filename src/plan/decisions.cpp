@@ -60,7 +60,7 @@ std::string obstacle_to_potential(const Plan& plan, bool in_plane) {
     });
     if (!obstacle.empty()) return obstacle;
   }
-  if (!plan.signals.empty()) return "signals are unknowns beside the motions";
+  if (plan.num_driving_signals > 0) return "signals are unknowns beside the motions";
   return plan.frames.empty() ? "" : "frames move, which brings Coriolis terms";
 }
 

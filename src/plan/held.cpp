@@ -82,7 +82,7 @@ class Holder {
       for (int row : plan_.joints[static_cast<std::size_t>(j)].rows)
         if (e.rows[row].law >= 0 && (b_.is_signal(e.rows[row].law) || !law(e.rows[row].law).is_constant()))
           return b_.is_signal(e.rows[row].law) ? "a signal moves it" : "a law moves it";
-      for (const SignalPlan& s : plan_.signals)
+      for (const SignalPlan& s : driving_signals(plan_))
         if (s.row >= 0 && s.joint_name == plan_.joints[static_cast<std::size_t>(j)].name)
           return "a signal reads the effort of a joint that holds it";
       if (e.num_efforts > 0) return "a joint that holds it has springs or drives of its own";

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
+#include "bough/elements/rows.hpp"
 #include "bough/laws/make_law.hpp"
 #include "bough/plan/plan.hpp"
 #include "bough/plan/stores.hpp"
@@ -311,6 +313,20 @@ void Builder::list_attachments() {
 
 /// Diagonal of the box around all nodes and attachment points [m], or the radius of gyration of the largest body if
 /// that is larger; 1 if both are zero.
+/// Largest distance of a joint from the centre of all joints, twice: a moment counts as a force at this arm where the
+/// reactions of dependent joints have to be shared out. It depends neither on where the frames of bodies are drawn nor
+/// on the axes of the ground.
+double Builder::extent_of_joints() const {
+  const std::vector<elements::Joint>& joints = array_of<elements::Joint>(plan.elements);
+  Vec3<double> sum = Vec3<double>::zero();
+  for (const elements::Joint& e : joints) sum += initial_pose(e.ports[0]).x;
+  double most = 0.0;
+  for (const elements::Joint& e : joints)
+    most = std::max(
+        most, length_of(Vec3<double>(initial_pose(e.ports[0]).x - (1.0 / static_cast<double>(joints.size())) * sum)));
+  return most > 0.0 ? 2.0 * most : plan.length_scale;
+}
+
 double Builder::size_of_structure() const {
   Vec3<double> low = Vec3<double>::zero(), high = low;
   bool is_first = true;
@@ -364,11 +380,13 @@ void Builder::make_graph() {
     plan.block_of_node[n] = g.num_blocks();
     g.block_size.push_back(plan.unknowns.count_of(n));
   }
-  for (SignalPlan& s : plan.signals) {
+  const std::span<SignalPlan> driving = std::span(plan.signals).first(static_cast<std::size_t>(plan.num_driving_signals));
+  for (SignalPlan& s : driving) {
     s.block = g.num_blocks();
     g.block_size.push_back(1);
   }
   g.block_kind.assign(g.block_size.size(), blocks::BlockKind::motion);
+  const double arm = extent_of_joints();
   for (std::size_t id = 0; id < plan.directory.size(); ++id) {
     with_element(plan.elements, plan.directory[id], [&](const auto& e) {
       for (const Port& p : e.ports)
@@ -382,12 +400,14 @@ void Builder::make_graph() {
       g.element_blocks.push_back(g.num_blocks());
       g.block_size.push_back(static_cast<int>(joint.rows.size()));
       g.block_kind.push_back(blocks::BlockKind::multiplier);
+      for (const int row : joint.rows)
+        g.multiplier_measure.push_back(elements::is_length(joint_of(plan, joint).rows[row].kind) ? 1.0 : 1.0 / arm);
     }
     for (const int s : signals_of(plan, id))
       g.element_blocks.push_back(plan.signals[static_cast<std::size_t>(s)].block);
     g.element_begin.push_back(static_cast<std::int64_t>(g.element_blocks.size()));
   }
-  for (SignalPlan& s : plan.signals) {
+  for (SignalPlan& s : driving) {
     s.element = g.num_elements();
     for (const Port& p : s.reading.ports) {
       const bool moves = p.node != elements::ground && plan.block_of_node[static_cast<std::size_t>(p.node)] >= 0;

@@ -82,6 +82,9 @@ struct Builder {
   /// Places for the values of signals among those of laws; then the signals themselves.
   void add_signal_laws();
   void add_signals();
+  /// Puts signals that elements read, themselves or by others, before those that only observe.
+  void part_signals();
+  double extent_of_joints() const;
   void read_effort(const scene::Joint& joint, const elements::Joint& made, motion::RowKind coordinate, SignalPlan& p);
   /// Whether a place among the values of laws is that of a signal that is an unknown.
   bool is_signal(int law) const {

@@ -334,7 +334,7 @@ Verdict judge(const Builder& b, const Motion& motion) {
       else
         ++v.passed;
     });
-  for (const SignalPlan& s : b.plan.signals)
+  for (const SignalPlan& s : driving_signals(b.plan))
     if (s.reads_motion() && !v.obstacle)
       if (auto o = motion.against(s.reading)) v.obstacle = "signal '" + s.name + "' reads a motion: " + *o;
   if (!v.obstacle) v.obstacle = motion.against_gravity();

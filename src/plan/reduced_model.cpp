@@ -230,7 +230,7 @@ void add_model(Builder& b) {
     (one(std::get<I>(plan.elements), std::get<I>(model.elements)), ...);
   };
   fill(std::make_index_sequence<std::tuple_size_v<ElementArrays>>{});
-  for (const SignalPlan& s : plan.signals) model.readings.push_back(reducer.reduced(s.reading, {}));
+  for (const SignalPlan& s : driving_signals(plan)) model.readings.push_back(reducer.reduced(s.reading, {}));
   model.nodes.reserve(plan.nodes.size());
   for (std::size_t n = 0; n < plan.nodes.size(); ++n) model.nodes.push_back(reducer.node(n));
   plan.model = std::move(model);

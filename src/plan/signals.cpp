@@ -162,6 +162,64 @@ void Builder::add_signals() {
       if (other >= 0 && !is_itself && std::find(p.signals.begin(), p.signals.end(), other) == p.signals.end())
         p.signals.push_back(other);
     }
+  part_signals();
+}
+
+namespace {
+
+/// Marks the signals that elements read as laws.
+std::vector<bool> read_by_elements(const Plan& plan) {
+  std::vector<bool> reads(plan.laws.size(), false);
+  for_each_array(plan.elements, [&](const auto& array) {
+    for (const auto& e : array) {
+      std::array<int, elements::max_rows + elements::max_efforts> laws;
+      elements::LawLister lister{laws.data()};
+      const elements::KindOf<elements::LawLister> kinds(lister);
+      std::decay_t<decltype(e)>::visit_data(e, e, kinds);
+      for (int k = 0; k < lister.count; ++k) reads[static_cast<std::size_t>(laws[static_cast<std::size_t>(k)])] = true;
+    }
+  });
+  for (const TurnedLawPlan& l : plan.turned_laws) reads[static_cast<std::size_t>(l.factor)] = true;
+  std::vector<bool> signals(plan.signals.size());
+  for (std::size_t i = 0; i < signals.size(); ++i) signals[i] = reads[static_cast<std::size_t>(plan.signals[i].law)];
+  return signals;
+}
+
+}  // namespace
+
+void Builder::part_signals() {
+  if (plan.signals.empty()) return;
+  std::vector<bool> drives = read_by_elements(plan);
+  // Step control keeps the errors of states within its tolerance, so that its steps follow from them.
+  for (std::size_t i = 0; i < drives.size(); ++i)
+    if (plan.signals[i].is_state() && scene.analysis.step_control) drives[i] = true;
+  std::vector<int> due;
+  for (std::size_t i = 0; i < drives.size(); ++i)
+    if (drives[i]) due.push_back(static_cast<int>(i));
+  while (!due.empty()) {
+    const SignalPlan& reader = plan.signals[static_cast<std::size_t>(due.back())];
+    due.pop_back();
+    for (const int read : reader.signals)
+      if (!drives[static_cast<std::size_t>(read)]) {
+        drives[static_cast<std::size_t>(read)] = true;
+        due.push_back(read);
+      }
+  }
+  std::vector<SignalPlan> parted;
+  std::vector<int> place(drives.size());
+  for (const bool driving : {true, false}) {
+    for (std::size_t i = 0; i < drives.size(); ++i)
+      if (drives[i] == driving) {
+        place[i] = static_cast<int>(parted.size());
+        parted.push_back(std::move(plan.signals[i]));
+      }
+    if (driving) plan.num_driving_signals = static_cast<int>(parted.size());
+  }
+  plan.signals = std::move(parted);
+  for (SignalPlan& s : plan.signals)
+    for (int& read : s.signals) read = place[static_cast<std::size_t>(read)];
+  for (int& signal : plan.signal_of_law)
+    if (signal >= 0) signal = place[static_cast<std::size_t>(signal)];
 }
 
 void Builder::list_signals_of_elements() {
@@ -191,7 +249,7 @@ void Builder::list_signals_of_elements() {
       }
     });
   // A multiplier belongs to the element of its joint alone: that holds the entry in the row of a signal that reads it.
-  for (std::size_t i = 0; i < plan.signals.size(); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(plan.num_driving_signals); ++i) {
     SignalPlan& p = plan.signals[i];
     if (p.row < 0 || p.joint < 0) continue;
     const JointPlan& joint = plan.joints[static_cast<std::size_t>(p.joint)];

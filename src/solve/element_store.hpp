@@ -19,7 +19,8 @@ namespace bough::solve {
 /// every h.
 struct Scales {
   std::vector<double> row, column;
-  /// column / exact column scale, in [2^-1/2, 2^1/2], to measure multipliers without the rounding of scales.
+  /// The norm of scaled multipliers, of which dependent rows leave a choice: that of BlockGraph::multiplier_measure, or
+  /// column / exact column scale, in [2^-1/2, 2^1/2], which is without the rounding of scales.
   std::vector<double> weight;
   std::vector<double>
       diagonal;  ///< of motion unknowns, the sum over the elements of |diagonal| for which they were made
@@ -74,6 +75,7 @@ class ElementStore {
 
   /// Serial, one pass over the element matrices. No allocation. scratch: num_unknowns numbers, overwritten.
   void eval_scales(Scales& scales, std::vector<double>& scratch) const;
+  void measure_multipliers(Scales& scales) const;
   /// Largest entry of D (A - A^T) D of one element, D the scales of columns; infinity or NaN if A is not finite.
   double asymmetry_of(int element, const Scales& scales) const;
   /// Of the present matrices in given scales, which may be those of earlier matrices.

@@ -183,6 +183,27 @@ void ElementStore::eval_scales(Scales& s, std::vector<double>& scratch) const {
     s.column[i] = column;
   }
   s.finite = probe == 0.0;
+  if (!graph_.multiplier_measure.empty()) measure_multipliers(s);
+}
+
+/// Weights with which scaled multipliers have the norm that the graph asks for, up to a common factor that makes them
+/// one on average.
+void ElementStore::measure_multipliers(Scales& s) const {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::int64_t b = 0; b < graph_.num_blocks(); ++b) {
+    if (graph_.block_kind[at(b)] == blocks::BlockKind::motion) continue;
+    for (int i = 0; i < graph_.block_size[at(b)]; ++i) {
+      const std::size_t u = at(tree_.unknown_begin[at(b)] + i);
+      s.weight[u] = graph_.multiplier_measure[count++] * s.column[u];
+      sum += std::log(s.weight[u]);
+    }
+  }
+  const double mean = count > 0 ? std::exp(sum / static_cast<double>(count)) : 1.0;
+  for (std::int64_t b = 0; b < graph_.num_blocks(); ++b) {
+    if (graph_.block_kind[at(b)] == blocks::BlockKind::motion) continue;
+    for (auto u = tree_.unknown_begin[at(b)]; u < tree_.unknown_begin[at(b) + 1]; ++u) s.weight[at(u)] /= mean;
+  }
 }
 
 }  // namespace bough::solve

@@ -13,7 +13,7 @@ using motion::Vec6;
 
 BlockOwners::BlockOwners(const plan::Plan& plan)
     : plan_(plan), joints_(static_cast<std::size_t>(plan.graph.num_blocks()), -1), nodes_(joints_), signals_(joints_) {
-  for (std::size_t s = 0; s < plan.signals.size(); ++s)
+  for (std::size_t s = 0; s < plan::driving_signals(plan).size(); ++s)
     signals_[static_cast<std::size_t>(plan.signals[s].block)] = static_cast<int>(s);
   for (std::size_t j = 0; j < plan.joints.size(); ++j)
     if (plan.joints[j].block >= 0) joints_[static_cast<std::size_t>(plan.joints[j].block)] = static_cast<int>(j);

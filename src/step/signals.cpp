@@ -13,6 +13,30 @@ namespace {
 
 constexpr std::size_t most_of_ports = 12;  ///< unknowns of both ports of a reading
 
+/// x = A^-1 x by elimination with row interchanges, A by rows, which is overwritten; false: A is singular. Nothing is
+/// allocated, and there are as few unknowns as a scene has states.
+bool solve_in_place(std::span<double> a, std::span<double> x) {
+  const std::size_t n = x.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n; ++i)
+      if (std::abs(a[i * n + k]) > std::abs(a[pivot * n + k])) pivot = i;
+    if (!(std::abs(a[pivot * n + k]) > 0.0)) return false;
+    std::swap(x[k], x[pivot]);
+    if (pivot != k) std::swap_ranges(&a[k * n], &a[k * n] + n, &a[pivot * n]);
+    for (std::size_t i = k + 1; i < n; ++i) {
+      const double factor = a[i * n + k] / a[k * n + k];
+      for (std::size_t j = k; j < n; ++j) a[i * n + j] -= factor * a[k * n + j];
+      x[i] -= factor * x[k];
+    }
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    for (std::size_t j = k + 1; j < n; ++j) x[k] -= a[k * n + j] * x[j];
+    x[k] /= a[k * n + k];
+  }
+  return std::all_of(x.begin(), x.end(), [](double of_x) { return std::isfinite(of_x); });
+}
+
 }  // namespace
 
 Signals::Signals(const plan::Plan& plan, const Instant& instant, const UnknownPlaces& places, LinearSolution& linear)
@@ -21,6 +45,19 @@ Signals::Signals(const plan::Plan& plan, const Instant& instant, const UnknownPl
   for (const plan::SignalPlan& s : plan.signals) most = std::max(most, s.inputs.size());
   for (std::vector<double>* scratch : {&inputs_, &slopes_}) scratch->assign(most, 0.0);
   row_.assign(most_of_ports + most + 1, 0.0);
+  for (std::size_t i = plan::driving_signals(plan).size(); i < plan.signals.size(); ++i) {
+    const plan::SignalPlan& s = plan.signals[i];
+    if (s.is_state()) observed_states_.push_back(i);
+    if (!s.reads_motion()) continue;
+    for (const elements::Port& p : s.reading.ports)
+      if (p.node != elements::ground) observed_nodes_.push_back(p.node);
+  }
+  const std::size_t states = observed_states_.size();
+  observed_slopes_.assign(plan.signals.size() * states, 0.0);
+  jacobian_.assign(states * states, 0.0);
+  left_.assign(states, 0.0);
+  residual_.assign(states, 0.0);
+  if (!observed_nodes_.empty()) nodes_.resize(plan.nodes.size());
 }
 
 /// The angle at the last accepted step of the joint that a signal reads.
@@ -117,7 +154,7 @@ void Signals::evaluate(const State& state, const elements::Slopes& slopes, bool 
   sums.clear_signals();
   state.visit([&]<class G>(const NodesOn<G>&) {
     const elements::FieldOn<G, double> field = instant_.field_on<G>(state, slopes);
-    for (std::size_t i = 0; i < plan_.signals.size(); ++i) {
+    for (std::size_t i = 0; i < plan::driving_signals(plan_).size(); ++i) {
       const plan::SignalPlan& s = plan_.signals[i];
       const Value value = eval<G>(i, state, field);
       const double left = s.is_state() ? state.signals.rate[i] : state.signals.value[i];
@@ -128,18 +165,84 @@ void Signals::evaluate(const State& state, const elements::Slopes& slopes, bool 
   });
 }
 
+template <class G>
+void Signals::follow(State& state, const elements::FieldOn<G, double>& field, std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const plan::SignalPlan& s = plan_.signals[i];
+    if (s.is_state()) continue;
+    state.signals.value[i] = eval<G>(i, state, field).f;
+    instant_.note_signal(s, state.signals.value[i]);
+  }
+  for (std::size_t i = begin; i < end; ++i)
+    if (plan_.signals[i].is_state()) state.signals.rate[i] = plan_.is_dynamic ? eval<G>(i, state, field).f : 0.0;
+}
+
 void Signals::follow_motion(State& state) {
-  state.visit([&]<class G>(const NodesOn<G>&) {
-    const elements::FieldOn<G, double> field = instant_.field_on<G>(state);
-    for (std::size_t i = 0; i < plan_.signals.size(); ++i) {
+  const std::size_t driving = plan::driving_signals(plan_).size();
+  if (driving > 0)
+    state.visit([&]<class G>(const NodesOn<G>&) { follow<G>(state, instant_.field_on<G>(state), 0, driving); });
+  if (driving < plan_.signals.size())
+    follow<motion::Se3>(state, instant_.field_of(state, observed_nodes_, nodes_), driving, plan_.signals.size());
+}
+
+/// Adds the derivatives of the inputs to those of a signal that only observes.
+void Signals::add_observed_slopes(const plan::SignalPlan& signal, double* row) const {
+  const std::size_t states = observed_states_.size();
+  for (std::size_t k = 0; k < signal.inputs.size(); ++k) {
+    const int input = plan_.signal_of_law[at(signal.inputs[k])];
+    if (input < plan_.num_driving_signals) continue;  // a law of time, or a signal of the motion
+    const double slope = signal.reads_motion() ? 1.0 : slopes_[k];
+    for (std::size_t j = 0; j < states; ++j) row[j] += slope * observed_slopes_[at(input) * states + j];
+  }
+}
+
+/// Newton's method for the states alone. All others are functions of these, which are evaluated in their order.
+void Signals::observe(State& state, double slope) {
+  const std::size_t driving = plan::driving_signals(plan_).size(), count = plan_.signals.size(),
+                    states = observed_states_.size();
+  if (driving == count) return;
+  constexpr int most = 20;
+  constexpr double settled = 1e-15;
+  const elements::Field field = instant_.field_of(state, observed_nodes_, nodes_);
+  SignalValues& now = state.signals;
+  for (std::size_t j = 0; j < states; ++j) {  // s' - slope s at the present values
+    const std::size_t i = observed_states_[j];
+    left_[j] = now.rate[i] - slope * now.value[i];
+    std::fill_n(observed_slopes_.begin() + static_cast<std::ptrdiff_t>(i * states), states, 0.0);
+    observed_slopes_[i * states + j] = 1.0;
+  }
+  for (int iteration = 0;; ++iteration) {
+    for (std::size_t i = driving; i < count; ++i) {
       const plan::SignalPlan& s = plan_.signals[i];
       if (s.is_state()) continue;
-      state.signals.value[i] = eval<G>(i, state, field).f;
-      instant_.note_signal(s, state.signals.value[i]);
+      now.value[i] = eval<motion::Se3>(i, state, field).f;
+      instant_.note_signal(s, now.value[i]);
+      double* row = observed_slopes_.data() + i * states;
+      std::fill_n(row, states, 0.0);
+      add_observed_slopes(s, row);
     }
-    for (std::size_t i = 0; i < plan_.signals.size(); ++i)
-      if (plan_.signals[i].is_state()) state.signals.rate[i] = plan_.is_dynamic ? eval<G>(i, state, field).f : 0.0;
-  });
+    if (states == 0) return;
+    for (std::size_t j = 0; j < states; ++j) {
+      const std::size_t i = observed_states_[j];
+      double* row = jacobian_.data() + j * states;
+      std::fill_n(row, states, 0.0);
+      residual_[j] = slope * now.value[i] + left_[j] - eval<motion::Se3>(i, state, field).f;
+      add_observed_slopes(plan_.signals[i], row);
+      for (std::size_t k = 0; k < states; ++k) row[k] = (k == j ? slope : 0.0) - row[k];
+    }
+    if (iteration == most) break;
+    if (!solve_in_place(jacobian_, residual_)) break;  // in statics a state without an equilibrium stays where it is
+    double largest = 0.0;
+    for (std::size_t j = 0; j < states; ++j) {
+      const std::size_t i = observed_states_[j];
+      now.value[i] -= residual_[j];
+      instant_.note_signal(plan_.signals[i], now.value[i]);
+      largest = std::max(largest, std::abs(residual_[j]) / std::max(std::abs(now.value[i]), 1e-300));
+    }
+    if (largest <= settled) break;
+  }
+  for (std::size_t j = 0; j < states; ++j)
+    now.rate[observed_states_[j]] = slope * now.value[observed_states_[j]] + left_[j];
 }
 
 /// df/dt along the motion.
@@ -161,19 +264,22 @@ double Signals::eval_rate(std::size_t signal, const State& state, const elements
 
 void Signals::add_rates(const State& state, std::vector<lanes::Taylor<double, 1>>& laws, std::vector<double>& second) {
   second.assign(plan_.signals.size(), 0.0);
-  state.visit([&]<class G>(const NodesOn<G>&) {
-    const elements::FieldOn<G, double> field = instant_.field_on<G>(state);
-    for (std::size_t i = 0; i < plan_.signals.size(); ++i) {
-      const plan::SignalPlan& s = plan_.signals[i];
-      laws[at(s.law)].c[0] = state.signals.value[i];
-      laws[at(s.law)].c[1] = state.signals.rate[i];
-    }
-    for (std::size_t i = 0; i < plan_.signals.size(); ++i)
+  for (std::size_t i = 0; i < plan_.signals.size(); ++i) {
+    const plan::SignalPlan& s = plan_.signals[i];
+    laws[at(s.law)].c[0] = state.signals.value[i];
+    laws[at(s.law)].c[1] = state.signals.rate[i];
+  }
+  const auto add = [&]<class G>(const elements::FieldOn<G, double>& field, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
       if (const plan::SignalPlan& s = plan_.signals[i]; !s.is_state())
         laws[at(s.law)].c[1] = eval_rate<G>(i, state, field, laws);
-    for (std::size_t i = 0; i < plan_.signals.size(); ++i)
+    for (std::size_t i = begin; i < end; ++i)
       if (plan_.signals[i].is_state()) second[i] = eval_rate<G>(i, state, field, laws);
-  });
+  };
+  const std::size_t driving = plan::driving_signals(plan_).size();
+  state.visit([&]<class G>(const NodesOn<G>&) { add(instant_.field_on<G>(state), 0, driving); });
+  if (driving < plan_.signals.size())
+    add(instant_.field_of(state, observed_nodes_, nodes_), driving, plan_.signals.size());
 }
 
 }  // namespace bough::step

@@ -70,7 +70,7 @@ void add_elements(const plan::Plan& plan, StepCost& cost) {
     });
   }
   const double kernels = plan.is_dynamic || !plan.frames.empty() ? 1.0 : kernels_at_rest,
-               others = per_evaluation + per_signal * static_cast<double>(plan.signals.size());
+               others = per_evaluation + per_signal * static_cast<double>(plan.num_driving_signals);
   cost.residual = kernels * cost.residual + per_sum * elements + others;
   cost.tangent = kernels * cost.tangent + per_sum_tangent * elements + others;
 }

@@ -139,6 +139,19 @@ std::optional<Trouble> VariationalOn<G>::evaluate_signals(const elements::Slopes
   return std::nullopt;
 }
 
+/// States that only observe, by the rule of the others.
+template <class G>
+void VariationalOn<G>::observe_signals(State& next, double h) {
+  SignalValues& middle = mid_.signals;
+  const auto for_states = [&](auto&& f) {
+    for (std::size_t i = plan::driving_signals(system_.plan()).size(); i < middle.value.size(); ++i)
+      if (system_.plan().signals[i].is_state()) f(i);
+  };
+  for_states([&](std::size_t i) { middle.rate[i] = (2.0 / h) * (middle.value[i] - base_.signals.value[i]); });
+  system_.signals().observe(mid_, 2.0 / h);
+  for_states([&](std::size_t i) { next.signals.value[i] = 2.0 * middle.value[i] - base_.signals.value[i]; });
+}
+
 /// States at the end, x_{n+1} = 2 x - x_n, and the signals that rows take there, with which the laws of the end are
 /// completed.
 template <class G>
@@ -417,6 +430,7 @@ StepReport VariationalOn<G>::try_step(State& state, const StepOptions& options, 
   predict_signals(h);
   report = iterate(state, options, h);
   if (!report.converged) return report;
+  observe_signals(state, h);
   Vectors& momentum = state.change<G>().momentum;
   // The remaining residual r is carried over to the momenta, so that the momentum balance is kept to round-off,
   // whatever the tolerance.
@@ -430,7 +444,7 @@ StepReport VariationalOn<G>::try_step(State& state, const StepOptions& options, 
   state.last_step = h;
   if (failed(system_.set_time(end_time, laws::Side::left))) return report;
   if (failed(solve_velocities(state, h))) return report;
-  if (!system_.signals().are_none()) system_.signals().follow_motion(state);
+  system_.signals().follow_motion(state);
   if (failed(solve_accelerations(state, h))) return report;
   add_counts();
   compare_rates(state, h);

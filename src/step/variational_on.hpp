@@ -97,6 +97,7 @@ class VariationalOn final : public Integrator {
   void predict_signals(double h);
   std::optional<Trouble> evaluate_signals(const elements::Slopes& slopes, double h, ResidualSize& size);
   std::optional<Trouble> end_signals(State& next, double h);
+  void observe_signals(State& next, double h);
   std::optional<Trouble> evaluate_step(State& next, const elements::Slopes& slopes, double h, ResidualSize& size);
   ResidualSize round_off_floor(double h) const;
   void evaluate_tangent(const elements::Slopes& slopes, double h);

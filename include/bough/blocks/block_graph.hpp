@@ -20,6 +20,10 @@ struct BlockGraph {
   std::vector<int>
       element_blocks;  ///< block ids, in the order of the element's own unknowns; none twice in one element
 
+  /// What each multiplier counts where dependent rows leave a choice, which is then of least norm of these times the
+  /// multipliers; block after block. Empty: each is measured relative to its constraint row.
+  std::vector<double> multiplier_measure;
+
   int num_blocks() const { return static_cast<int>(block_size.size()); }
   int num_elements() const { return static_cast<int>(element_begin.size()) - 1; }
 };

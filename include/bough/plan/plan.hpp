@@ -141,7 +141,8 @@ enum class SignalRule : std::uint8_t {
 
 /// A signal that changes with the motion: an unknown s with one equation, s = f or s' = f. Plan::signals holds them
 /// such that each comes after those of whose present values it is made. Signals that are laws of time are Plan::laws
-/// alone.
+/// alone. A signal that no element reads, itself or by other signals, only observes: it comes after all others, has
+/// neither a block nor an element, and is evaluated when a state has been accepted.
 struct SignalPlan {
   std::string name;
   std::string unit;  ///< empty: a pure number, or not known
@@ -241,6 +242,7 @@ struct Plan {
                       ///< inertial frame
   std::vector<TurnedLawPlan> turned_laws;
   std::vector<SignalPlan> signals;
+  int num_driving_signals = 0;                       ///< the first ones, which are unknowns of the system
   std::vector<int> signal_of_law;                    ///< by law: index in signals; -1: none. Empty where signals is
   bool signals_drive = false;                        ///< a signal is a law of a row of a joint
   bool signals_read_multipliers = false;             ///< a signal reads the force of a drive or of a row
@@ -284,6 +286,10 @@ struct Plan {
   }
 };
 
+/// The signals that are unknowns of the system.
+inline std::span<const SignalPlan> driving_signals(const Plan& plan) {
+  return std::span(plan.signals).first(static_cast<std::size_t>(plan.num_driving_signals));
+}
 /// The signals that an element reads, as indices in Plan::signals.
 inline std::span<const int> signals_of(const Plan& plan, std::size_t element) {
   if (plan.signals.empty()) return {};
