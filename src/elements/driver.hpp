@@ -8,9 +8,36 @@
 
 namespace bough::elements {
 
-/// Derivatives of the motions of an element's ports by the unknowns of their nodes.
+/// Completes slopes of a port that are relative to a frame which moves with the velocity b and falls with c, in the axes
+/// of the port. With B = (b; 0), C = (c; 0), and w the twist relative to that frame, v = w + B and a = w' + C + ad(B) w:
+///   dv = dw + ad(B) eta,   da = dw' + ad(B) dw + (ad(C) - ad(w) ad(B)) eta
+/// `turning` is the angular part of w. Only the columns of rotations change.
+template <class S>
+BOUGH_INLINE void add_drift(const Vec3<S>& b, const Vec3<S>& c, const Vec3<S>& turning, motion::DualMat<S>& velocity,
+                            motion::DualMat<S>& acceleration) {
+  const Mat3<S> by = skew(b);
+  acceleration.b = acceleration.b + by * velocity.a + skew(c) - skew(turning) * by;
+  velocity.b = velocity.b + by;
+}
+template <class S>
+BOUGH_INLINE void add_drift(const motion::Vec2<S>& b, const motion::Vec2<S>& c, const S& turning,
+                            motion::PlaneMap<S>& velocity, motion::PlaneMap<S>& acceleration) {
+  const motion::Vec2<S> by = -motion::quarter_turn(b);
+  acceleration.t = acceleration.t + velocity.b * by - motion::quarter_turn(c) - turning * b;
+  velocity.t = velocity.t + by;
+}
+template <class S>
+BOUGH_INLINE Vec3<S> angular_of(const Vec6<S>& v) {
+  return lanes::angular_part(v);
+}
+template <class S>
+BOUGH_INLINE S angular_of(const Vec3<S>& v) {
+  return v[2];
+}
+
+/// Derivatives of the motions `p` of an element's ports, relative to the ground, by the unknowns of their nodes.
 template <class E, class G, class S>
-void eval_port_slopes(const E& e, const FieldOn<G, S>& field, PortSlopesOn<G, S>* ports) {
+void eval_port_slopes(const E& e, const FieldOn<G, S>& field, const PortMotionOn<G, S>* p, PortSlopesOn<G, S>* ports) {
   using Map = typename G::template Map<S>;
   const bool has_rates = field.around.has_inertia && looks_at_rates(e);
   for (int k = 0; k < E::num_ports; ++k) {
@@ -26,6 +53,14 @@ void eval_port_slopes(const E& e, const FieldOn<G, S>& field, PortSlopesOn<G, S>
     const Map inverse = matrix(motion::eval_inverse_tangent_operator<G, S>(G::motion(dq)));
     ports[k].velocity = G::scaled(field.slopes.velocity, inverse);
     ports[k].acceleration = G::scaled(field.slopes.acceleration, inverse);
+    if constexpr (G::turns) {
+      if (!field.slopes.drifts) continue;
+      typename G::template Translation<S> b = field.nodes[port.node].drift,
+                                          c = G::template Translation<S>::zero();
+      if (port.has_offset) b = G::turned_back(port.offset, b);
+      if (field.slopes.falls) c = G::turned_back(p[k].H, field.around.gravity);
+      add_drift(b, c, angular_of(p[k].v), ports[k].velocity, ports[k].acceleration);
+    }
   }
 }
 
@@ -162,7 +197,7 @@ void evaluate_element(const E& e, const FieldOn<G, S>& field, const S* multiplie
     eval_kernel(e, p, multipliers, field.around, turns, out, rows);
   } else {
     PortSlopesOn<G, S> slopes[P];
-    eval_port_slopes(e, field, slopes);
+    eval_port_slopes(e, field, p, slopes);
     if constexpr (G::has_moving_frames)
       if (field.observer != nullptr) see_from_inertial(e, field, anchor, p, slopes);
     const TangentWriter<G, S> put(e, places, size, tangent);

@@ -86,14 +86,18 @@ inline PortMotion<lanes::Taylor<double, 1>> series_of(const PortMotion<double>& 
 template <class E>
 void evaluate_rate(const E& e, const FieldOn<typename E::Group, double>& field,
                    const SurroundingsOn<typename E::Group, lanes::Taylor<double, 1>>& around, const double* multipliers,
-                   double turns, double* residual_rate) {
+                   double turns, const typename E::Group::template Vector<double>* jerks, double* residual_rate) {
   using G = typename E::Group;
   using T = lanes::Taylor<double, 1>;
   constexpr int P = E::num_ports;
   const auto anchor = anchor_of(e, field.nodes);
   PortMotionOn<G, T> p[P];
-  for (int k = 0; k < P; ++k)
-    p[k] = series_of(eval_port(e.ports[k], field.nodes, anchor, field.carriers), G::template Vector<double>::zero());
+  for (int k = 0; k < P; ++k) {
+    auto jerk = G::template Vector<double>::zero();
+    if (jerks != nullptr && e.ports[k].node != ground)
+      jerk = e.ports[k].has_offset ? G::inverse_adjoint_times(e.ports[k].offset, jerks[k]) : jerks[k];
+    p[k] = series_of(eval_port(e.ports[k], field.nodes, anchor, field.carriers), jerk);
+  }
   if constexpr (has_mass_matrix<E> && G::has_moving_frames) {
     if (field.observer != nullptr && around.has_inertia) {
       Vec6<T> twist = lanes::cast<T>(field.observer->twist), twist_rate = lanes::cast<T>(field.observer->twist_rate);
@@ -122,4 +126,4 @@ void evaluate_rate(const E& e, const FieldOn<typename E::Group, double>& field,
   template void evaluate(const E&, const FieldOn<E::Group, double>&, const double*, double, double*, double*);  \
   template void evaluate_rate(const E&, const FieldOn<E::Group, double>&,                                       \
                               const SurroundingsOn<E::Group, lanes::Taylor<double, 1>>&, const double*, double, \
-                              double*);
+                              const E::Group::Vector<double>*, double*);

@@ -5,16 +5,22 @@ namespace bough::elements {
 
 namespace {
 
-/// Force in the residual at a port, in the axes of the frame in which nodes are described.
-Vec3<double> port_force(const PortMotion<double>* p, const double* out, int port) {
-  return p[port].H.R * Vec3<double>{{out[6 * port], out[6 * port + 1], out[6 * port + 2]}};
+/// Adds a share of the wrench in the residual at a port, in the axes of the frame in which nodes are described.
+void add_port_wrench(const PortMotion<double>* p, const Vec3<double>& anchor, const double* out, int port, double share,
+                     Measures& m) {
+  Vec6<double> wrench;
+  for (int i = 0; i < 6; ++i) wrench[i] = share * out[6 * port + i];
+  const Vec6<double> there = to_origin(p[port].H, anchor, wrench);
+  m.force += lanes::linear_part(there);
+  m.moment += lanes::angular_part(there);
 }
 
 /// Adds the reactions of the ground on the structure through an element, which are its residual there.
 template <class E>
-void add_ground_reaction(const E& e, const PortMotion<double>* p, const double* out, Measures& m) {
+void add_ground_reaction(const E& e, const PortMotion<double>* p, const Vec3<double>& anchor, const double* out,
+                         Measures& m) {
   for (int k = 0; k < E::num_ports; ++k)
-    if (e.ports[k].node == ground) m.force += port_force(p, out, k);
+    if (e.ports[k].node == ground) add_port_wrench(p, anchor, out, k, 1.0, m);
 }
 
 template <class E>
@@ -25,8 +31,8 @@ Measures measure_load(const E& e, const Field& field) {
   double out[6 * E::num_ports];
   eval_residual(e, p, field.around, out);
   Measures m;
-  for (int k = 0; k < E::num_ports; ++k) m.force -= port_force(p, out, k);
-  add_ground_reaction(e, p, out, m);
+  for (int k = 0; k < E::num_ports; ++k) add_port_wrench(p, anchor, out, k, -1.0, m);
+  add_ground_reaction(e, p, anchor, out, m);
   return m;
 }
 
@@ -46,17 +52,18 @@ Measures measure_coupling(const E& e, const Field& field) {
   }
   if constexpr (requires { eval_energy_by_factor(e, p); })
     if (stiffness_law(e) >= 0) m.strain_by_law = eval_energy_by_factor(e, p);
-  add_ground_reaction(e, p, out, m);
+  add_ground_reaction(e, p, anchor, out, m);
   return m;
 }
 
-/// The same of an element whose residual is needed for nothing else.
+/// Adds them for an element whose residual is needed for nothing else.
 template <class E>
-void add_ground_reaction(const E& e, const PortMotion<double>* p, const Field& field, Measures& m) {
+void add_ground_reaction(const E& e, const PortMotion<double>* p, const Vec3<double>& anchor, const Field& field,
+                         Measures& m) {
   if (!holds_on_to_ground(e)) return;
   double out[6 * E::num_ports];
   eval_residual(e, p, field.around, out);
-  add_ground_reaction(e, p, out, m);
+  add_ground_reaction(e, p, anchor, out, m);
 }
 
 template <int N>
@@ -75,7 +82,7 @@ Measures measure_beam(const Beam<N>& beam, const Field& field) {
     for (int i = 0; i < N; ++i)
       if (i != Beam<N>::reference) m.dissipation_rate += G::real_power(viscous[i] - elastic[i], rates.rate[i]);
   }
-  add_ground_reaction(beam, p, field, m);
+  add_ground_reaction(beam, p, anchor, field, m);
   return m;
 }
 
@@ -123,7 +130,7 @@ Measures measure(const RigidBody& e, const Field& field, const double*, double) 
   Vec3<double> anchor;
   eval_ports_from_inertial(e, field, p, anchor);
   Measures m;
-  add_ground_reaction(e, p, field, m);
+  add_ground_reaction(e, p, anchor, field, m);
   return m;
 }
 
@@ -136,7 +143,7 @@ Measures measure(const Joint& joint, const Field& field, const double* multiplie
   if (holds_on_to_ground(joint)) {
     double out[12], rows[max_rows];
     eval_residual(joint, p, multipliers, field.around, turns, out, rows);
-    add_ground_reaction(joint, p, out, m);
+    add_ground_reaction(joint, p, anchor, out, m);
   }
   if (!field.around.has_inertia) return m;
   const Frame<double> H = motion::relative(p[0].H, p[1].H);

@@ -69,7 +69,7 @@ double eval_reading(const JointOn<G, double>& reading, const FieldOn<G, double>&
   const bool has_rates = field.around.has_inertia;
   if (slopes != nullptr) {
     PortSlopesOn<G, double> ports[2];
-    eval_port_slopes(reading, field, ports);
+    eval_port_slopes(reading, field, p, ports);
     typename G::template Vector<double> rows[2];
     eval_port_rows<G>(reading, p, ports, has_rates, turns, rows);
     for (int k = 0; k < 2; ++k) {

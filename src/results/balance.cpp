@@ -133,7 +133,7 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
   const Field f = system.instant().field_of(state, nodes_, scratch_);
   double work = 0.0;
   dissipation_rate_ = 0.0;
-  force_ = Vec3<double>::zero();
+  force_ = moment_ = Vec3<double>::zero();
   const auto advance_drive = [&work](Drive& drive, double way, double force) {
     work += 0.5 * (drive.force + force) * (way - drive.way);
     drive.way = way;
@@ -169,10 +169,14 @@ double WorkMeter::step(const step::System& system, const step::State& state) {
                       m.strain_by_law);
       dissipation_rate_ += m.dissipation_rate;
       force_ += m.force;
+      moment_ += m.moment;
     });
   }
   force_ += mass_ * f.around.gravity;
-  if (f.observer != nullptr) force_ = f.observer->pose.R * force_;  // elements give forces in the ground's axes
+  if (f.observer != nullptr) {  // elements give forces in the ground's axes
+    force_ = f.observer->pose.R * force_;
+    moment_ = f.observer->pose.R * moment_;
+  }
   return work;
 }
 
@@ -180,31 +184,42 @@ void WorkMeter::begin(const step::System& system, const step::State& state) { (v
 
 void WorkMeter::add(const step::System& system, const step::State& state, double h) {
   const double dissipated = dissipation_rate_;
-  const Vec3<double> force = force_;
+  const Vec3<double> force = force_, moment = moment_;
   supply_.work += step(system, state);
   supply_.dissipation += 0.5 * h * (dissipated + dissipation_rate_);
   supply_.impulse += (0.5 * h) * (force + force_);
+  supply_.angular_impulse += (0.5 * h) * (moment + moment_);
+  supply_.force += h * std::sqrt(lanes::dot(force_, force_));
+  supply_.moment += h * std::sqrt(lanes::dot(moment_, moment_));
 }
 
 void Balance::begin(const Energies& start) {
   start_energy_ = start.total();
-  start_momentum_ = lanes::linear_part(start.momentum);
+  start_momentum_ = start.momentum;
 }
 
 void Balance::jump(const Energies& before, const Energies& after) {
   start_energy_ += after.total() - before.total();
-  start_momentum_ += lanes::linear_part(after.momentum) - lanes::linear_part(before.momentum);
+  start_momentum_ += after.momentum - before.momentum;
 }
 
-void Balance::compare(const Energies& now, const Supply& supply) {
+void Balance::compare(const Energies& now, const Supply& supply, double mass, double size) {
   const double supplied = supply.work - supply.dissipation;
   last_error_ = now.total() - start_energy_ - supplied;
   energy_error_ = std::max(energy_error_, std::abs(last_error_));
   energy_scale_ =
       std::max(energy_scale_, now.kinetic + now.strain + std::abs(now.potential - start_energy_) + std::abs(supplied));
   largest_energies_ = std::max(largest_energies_, now.kinetic + now.strain + std::abs(now.potential));
-  const Vec3<double> left = lanes::linear_part(now.momentum) - supply.impulse - start_momentum_;
-  for (int i = 0; i < 3; ++i) momentum_error_ = std::max(momentum_error_, std::abs(left[i]));
+  const Vec6<double> change = now.momentum - start_momentum_;
+  const double of_parts = std::sqrt(2.0 * mass * now.kinetic);  // sum of |p| <= (2 m T)^1/2
+  momentum_scale_ = std::max(momentum_scale_, of_parts);
+  angular_scale_ = std::max(angular_scale_, size * of_parts);
+  for (int i = 0; i < 3; ++i) {
+    momentum_error_ = std::max(momentum_error_, std::abs(change[i] - supply.impulse[i]));
+    momentum_scale_ = std::max(momentum_scale_, std::abs(now.momentum[i]) + supply.force);
+    angular_error_ = std::max(angular_error_, std::abs(change[3 + i] - supply.angular_impulse[i]));
+    angular_scale_ = std::max(angular_scale_, std::abs(now.momentum[3 + i]) + supply.moment);
+  }
 }
 
 }  // namespace bough::results

@@ -53,7 +53,7 @@ void Conservation::check(const step::State& state, double step_size, records::Ch
   gate.look_at(energies, state.time, [&] { return results::eval_motion(system_, state); });
   gate.look_at("the work of loads and drives", work_meter_.supply().work, state.time);
   gate.look_at("the energy taken by dampers", work_meter_.supply().dissipation, state.time);
-  balance_.compare(energies, work_meter_.supply());
+  balance_.compare(energies, work_meter_.supply(), work_meter_.mass(), plan_.length_scale);
   if (error_watch != nullptr)
     error_watch->see_energies(state.time, energies.kinetic, energies.strain + energies.potential,
                               balance_.last_energy_error(), balance_.energy_scale());
@@ -77,6 +77,10 @@ void Conservation::sum_up(records::Checks& c, const step::StepOptions& options, 
   c.numerical_dissipation = std::max(0.0, -balance_.last_energy_error());
   c.energy_gained = std::max(0.0, balance_.last_energy_error());
   c.momentum_balance = balance_.momentum_error();
+  c.momentum_scale = balance_.momentum_scale();
+  if (lanes::dot(plan_.gravity, plan_.gravity) > 0.0) return;
+  c.angular_momentum_balance = balance_.angular_momentum_error();
+  c.angular_momentum_scale = balance_.angular_momentum_scale();
 }
 
 }  // namespace bough::run

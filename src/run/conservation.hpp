@@ -29,7 +29,9 @@ class Conservation {
   /// Adds the work of an accepted step of this size.
   void add_step(const step::State& state, double step_size);
   /// Compares energy and momentum with the supplied work and impulse.
-  void compare(const step::State& state) { balance_.compare(energy_meter_.eval(system_, state), work_meter_.supply()); }
+  void compare(const step::State& state) {
+    balance_.compare(energy_meter_.eval(system_, state), work_meter_.supply(), work_meter_.mass(), plan_.length_scale);
+  }
 
   /// Performs the checks of a row: violations of constraints and, where work is summed in dynamics, balances.
   /// error_watch may be null.

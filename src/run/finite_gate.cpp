@@ -120,6 +120,7 @@ void FiniteGate::look_at(const records::Summary& s) {
            {"the energy taken by the integrator", c.numerical_dissipation},
            {"the energy added by the integrator", c.energy_gained},
            {"the error of the momentum balance", c.momentum_balance},
+           {"the error of the balance of angular momentum", c.angular_momentum_balance},
            {"the violation of constraints", c.constraint_violation_position},
            {"the violation of constraints by velocities", c.constraint_violation_velocity},
            {"the local error of a step", c.local_error_max},

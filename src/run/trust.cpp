@@ -38,6 +38,18 @@ void doubt_energy(const records::Summary& s, const TrustLimits& limits, std::vec
                        "smaller steps or a spectral radius nearer to 1"});
 }
 
+/// Impulses are sums of forces at the ends of steps, so that both balances are as accurate as the motion.
+void doubt_momentum(const records::Checks& c, const TrustLimits& limits, std::vector<records::Doubt>& doubts) {
+  const auto look_at = [&](const char* what, double error, double scale, const char* unit) {
+    if (scale > 0.0 && passes(error, limits.momentum_lost * scale))
+      doubts.push_back({"momentum", std::string(what) + " changes by " + number(error) + " " + unit + ", " +
+                                        number(100.0 * error / scale) +
+                                        " % of the largest, that no load and no support gives; take smaller steps"});
+  };
+  look_at("momentum", c.momentum_balance, c.momentum_scale, "kg m/s");
+  look_at("angular momentum", c.angular_momentum_balance, c.angular_momentum_scale, "kg m^2/s");
+}
+
 /// The step size or tolerance that would bring the error below its bound, given that errors are of second order in the
 /// step and of first order in the tolerance. The margin covers the error of the estimate itself in runs with large
 /// errors; in all runs that were tried it was smaller.
@@ -204,6 +216,7 @@ std::vector<records::Doubt> doubts_of(const records::Summary& s, bool is_dynamic
   doubt_start(s.changed_velocities, limits, doubts);
   const records::Checks& c = s.checks;
   if (c.evaluated && is_dynamic) doubt_energy(s, limits, doubts);
+  if (c.evaluated && is_dynamic) doubt_momentum(c, limits, doubts);
   if (c.evaluated && is_dynamic) doubt_errors(s, limits, doubts);
   if (c.evaluated) doubt_constraints(c, limits, doubts);
   doubt_linear_solutions(s, limits, doubts);

@@ -18,6 +18,9 @@ struct TrustLimits {
   /// Energy taken by the integrator, relative to the largest energy. Unresolved vibrations are damped on purpose; a
   /// tenth of all energy changes amplitudes by a twentieth.
   double energy_taken = 0.1;
+  /// Momentum that no impulse explains, over the largest momentum or impulse. Runs of the gallery stay below 3e-3; a
+  /// body whose path bends by this much lands visibly elsewhere.
+  double momentum_lost = 1e-2;
   /// Estimated error of a sensor by the end (ErrorWatch), relative to its range. The estimate is right within a factor
   /// of three. Runs with errors of 12 %, which are visible in a picture, are thus always doubted, and runs right to 1 %
   /// never. Scenes of the gallery stay below 3.3 %.

@@ -25,6 +25,11 @@ double noted_most(System& system) {
   return most;
 }
 
+template <class G>
+Drifts<G> drifts_of(System& system) {
+  return {std::get<DriftChoice<G>>(system.work().drift_choice), std::get<DriftedStart<G>>(system.work().drifted)};
+}
+
 /// The formulas of generalized-alpha applied to all nodes, for a step that begins at `start`.
 struct AlphaStep {
   AlphaRule rule;
@@ -40,8 +45,9 @@ struct AlphaStep {
       system.corrections().apply_in_visit<G>(
           visit, state, x, [&](std::int64_t begin, std::int64_t end, NodeChange<G>* changes) {
             note_most(system, begin, end,
-                      correct_nodes(rule, from, nodes, *system.node_order(), static_cast<std::size_t>(begin),
-                                    static_cast<std::size_t>(end), system.places().increments(x), changes));
+                      correct_nodes(rule, drifts_of<G>(system), from, nodes, *system.node_order(),
+                                    static_cast<std::size_t>(begin), static_cast<std::size_t>(end),
+                                    system.places().increments(x), changes));
           });
     });
   }
@@ -50,6 +56,12 @@ struct AlphaStep {
     system.corrections().add_signals(state, x, 1.0);
     follow_states(system.plan(), state.signals);
     return judge_turn(state);
+  }
+
+  /// Signals that only observe, of the accepted state.
+  void observe(State& state) const {
+    system.signals().observe(state, rule.states.slope());
+    follow_states(system.plan(), state.signals);
   }
 
   /// Predictor. It extrapolates dv/dt by the polynomial, of order 0, 1 or 2, that would have been most accurate in the
@@ -68,8 +80,8 @@ struct AlphaStep {
       keep_held(from, nodes, order);
       auto some = [&](std::int64_t begin, std::int64_t end) {
         note_most(system, begin, end,
-                  predict_nodes(rule, start.predictor_order, from, nodes, order, static_cast<std::size_t>(begin),
-                                static_cast<std::size_t>(end)));
+                  predict_nodes(rule, drifts_of<G>(system), start.predictor_order, from, nodes, order,
+                                static_cast<std::size_t>(begin), static_cast<std::size_t>(end)));
       };
       system.walker().for_each_chunk(order.by_visit().count(), eight_grain, tree::make_chunk(some));
     });
@@ -122,7 +134,7 @@ void note_end(System& system, const AlphaRule& rule, const State& start, State& 
   state.change_all([&]<class G>(NodesOn<G>& nodes) {
     auto some = [&](std::int64_t begin, std::int64_t end) {
       parts[static_cast<std::size_t>(begin / eight_grain)] =
-          finish_nodes(rule, arm, per_length, start.on<G>(), nodes, *system.node_order(),
+          finish_nodes(rule, drifts_of<G>(system), arm, per_length, start.on<G>(), nodes, *system.node_order(),
                        static_cast<std::size_t>(begin), static_cast<std::size_t>(end), system.work().misses.data());
     };
     system.walker().for_each_chunk(count, eight_grain, tree::make_chunk(some));
@@ -157,10 +169,15 @@ std::optional<Trouble> check_shape_after(System& system, const State& start, Sta
 }
 
 AlphaStep make_rule(System& system, const StepOptions& options, const State& start) {
-  return {{make_alpha_coefficients(options.spectral_radius), start.step_size,
-           FirstOrderRule(options.spectral_radius, start.step_size)},
-          start,
-          system};
+  AlphaRule rule{make_alpha_coefficients(options.spectral_radius), start.step_size,
+                 FirstOrderRule(options.spectral_radius, start.step_size)};
+  std::visit(
+      [&]<class G>(const DriftChoice<G>& choice) {
+        rule.drifts = G::turns;
+        rule.falls = choice.falls;
+      },
+      system.work().drift_choice);
+  return {rule, start, system};
 }
 
 /// Sets the laws of `end_time` and the predicted state.
@@ -182,10 +199,11 @@ StepReport try_step(System& system, State& state, const State& start, const Step
   if (const auto t = enter(system, state, step, end_time, side)) return fail(*t);
   report = iterate(system, state, options, make_goal(start, options.tolerance), step.rule.slopes(), step);
   if (!report.converged) return report;
+  system.recover_multipliers(state);
+  step.observe(state);
   note_end(system, step.rule, start, state);
   note_whole_end(system, step.rule, start, state);
   if (const auto t = check_shape_after(system, start, state)) return fail(*t);
-  system.recover_multipliers(state);
   return report;
 }
 

@@ -14,6 +14,8 @@ struct AlphaRule {
   AlphaCoefficients c;
   double h;
   FirstOrderRule states;  ///< for states of signals
+  bool drifts = false;    ///< nodes turn: the rule applies relative to frames that drift (drift.hpp)
+  bool falls = false;     ///< these frames fall with gravity
 
   template <class V>
   struct Rates {
@@ -21,7 +23,8 @@ struct AlphaRule {
   };
 
   elements::Slopes slopes() const {
-    return {c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h), false, states.slope()};
+    return {c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h), false, states.slope(), false,
+            drifts, falls};
   }
 
   /// Acceleration-like variable, velocity and acceleration at the end of the step as functions of dq:

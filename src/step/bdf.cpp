@@ -214,6 +214,7 @@ void Bdf::follow_node(NodesOn<G>& nodes, std::size_t n) const {
   node.v = On::template tangent_times<double>(D, Vector((1.0 / h_) * (c_.c0 * D + past.y[n])));
   node.a = (1.0 / h_) * (c_.c0 * node.v + past.rates[n]);
   node.dq = (1.0 / c_.c0) * D;
+  node.drift = {};
 }
 
 /// The first node that has turned too far, if there is one.
@@ -269,6 +270,7 @@ StepReport Bdf::take_step(State& state, const StepOptions& options, double end_t
   report = iterate(system_, state, options, {}, slopes, *this);
   if (!report.converged) return report;
   if (const auto t = check_shape(system_, state)) return failed(report, t->text);
+  system_.signals().observe(state, c_.c0 / h_);
   std::swap(signals_earlier_, signals_last_);
   signals_last_ = begin_.signals.value;
   state.change_all([&]<class G>(NodesOn<G>& nodes) {

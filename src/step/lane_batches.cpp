@@ -10,18 +10,17 @@ namespace bough::step {
 
 namespace {
 
-/// Loads what an element reads of eight nodes: poses; v and dv/dt if it reads rates, which are zero otherwise; dq if it
-/// also needs their slopes, which is left as it was otherwise.
+/// Loads what an element reads of eight nodes: poses; v and dv/dt if it reads rates, which are zero otherwise; dq and
+/// the drift if it also needs their slopes, which are left as they were otherwise.
 template <class G>
 void gather_motions(const elements::NodeMotionOn<G, double>* nodes, const int* at, bool has_rates, bool has_slopes,
                     elements::NodeMotionOn<G, elements::LanePack>& to) {
-  constexpr int all = elements::numbers_of_node<G>, pose = all - 3 * G::dof;
   const double* from[elements::num_lanes];
   for (int l = 0; l < elements::num_lanes; ++l) from[l] = reinterpret_cast<const double*>(nodes + at[l]);
   auto* const numbers = reinterpret_cast<elements::LanePack*>(&to);
-  if (has_rates && has_slopes) return lanes::gather_lanes(from, all, numbers);
-  if (has_rates) return lanes::gather_lanes(from, all - G::dof, numbers);
-  lanes::gather_lanes(from, pose, numbers);
+  if (has_rates && has_slopes) return lanes::gather_lanes(from, elements::numbers_of_node<G>, numbers);
+  if (has_rates) return lanes::gather_lanes(from, elements::numbers_of_rates<G>, numbers);
+  lanes::gather_lanes(from, elements::numbers_of_pose<G>, numbers);
   to.v = to.a = decltype(to.v)::zero();
 }
 

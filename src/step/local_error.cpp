@@ -8,6 +8,7 @@
 #include "bough/motion/vectors_on.hpp"
 #include "bough/scene/sensor_kinds.hpp"
 #include "bough/step/step_control.hpp"
+#include "drift.hpp"
 #include "first_order.hpp"
 
 namespace bough::step {
@@ -50,7 +51,7 @@ LocalError::LocalError(const System& system, const StepOptions& options, double 
   shifted_ = make_initial_state(system.plan());
   watched_.assign(now_.size(), {true, true, true, 0.0});
   if (options.step_control) watch(system.plan());
-  for (std::size_t i = 0; i < plan_.signals.size(); ++i)
+  for (std::size_t i = 0; i < plan::driving_signals(plan_).size(); ++i)
     if (plan_.signals[i].is_state()) states_.push_back({i});
 }
 
@@ -129,14 +130,22 @@ void LocalError::watch(int node, double arm, bool turns, bool velocity) {
 }
 
 /// Sets `to` to `after` with h times (unfiltered error of dq) / h^3 added to dv/dt.
-void LocalError::shift_accelerations(const State& after, State& to) const {
+void LocalError::shift_accelerations(const System& system, const State& after, State& to) const {
   const double h = after.step_size;
   to = after;
   to.change_all([&]<class G>(NodesOn<G>& nodes) {
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
       auto& node = nodes.motion[n];
+      typename G::template Vector<double> v = node.v, rate = node.a;  // relative to the frame of the step
+      if constexpr (G::turns) {
+        const auto& fall = std::get<DriftChoice<G>>(system.work().drift_choice).fall;
+        const Drift<G, double> drift{
+            node.drift, G::turned_back({node.R, G::template Translation<double>::zero()}, fall)};
+        rate = without<G, double>(rate, drift.rate(v));
+        v = without<G, double>(v, drift.velocity);
+      }
       node.a += h * ((alpha_.error_of_increments() / h) * nodes.acceleration_trend[n] -
-                     (1.0 / 12.0) * motion::VectorsOn<G>::template bracket<double>(node.v, node.a));
+                     (1.0 / 12.0) * motion::VectorsOn<G>::template bracket<double>(v, rate));
     }
   });
 }
@@ -167,7 +176,7 @@ std::optional<Trouble> LocalError::measure(System& system, const State& after) {
   // The residual is linear in v', so R(v' + e) = R(v') + M e, of which the step has left R(v') below what it converged
   // to. The e used here is of the size of v', far above that.
   const double c2 = (1.0 - alpha_.alpha_m) / ((1.0 - alpha_.alpha_f) * alpha_.beta * h * h);
-  shift_accelerations(after, shifted_);
+  shift_accelerations(system, after, shifted_);
   if (auto t = system.evaluate(shifted_, {}, false)) return t;
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -c2 * system.right_hand_side()[i];
   enter_states(system, after, rhs);

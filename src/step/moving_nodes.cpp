@@ -27,10 +27,11 @@ static_assert(elements::num_lanes == static_cast<int>(nodes_in_lanes));
 template <class G>
 using VectorLanes = typename G::template Vector<Pack>;
 
-/// Layout of a node's numbers in memory: pose, v, dv/dt and dq, one after the other.
+/// Layout of a node's numbers in memory: pose, v, dv/dt, dq and drift, one after the other.
 template <class G>
 struct NodeNumbers {
-  static constexpr int all = elements::numbers_of_node<G>, dof = G::dof, pose = all - 3 * dof, v = pose, dq = all - dof;
+  static constexpr int all = elements::numbers_of_node<G>, pose = elements::numbers_of_pose<G>, v = pose,
+                       dq = elements::numbers_of_rates<G>;
 };
 
 Pack larger(const Pack& a, const Pack& b) { return select(less(a, b), b, a); }
@@ -208,45 +209,85 @@ void move_nodes(NodesOn<G>& nodes, std::span<const NodeEight> eights, const Node
 
 namespace {
 
-/// Loads what a correction needs of the start of the step. In space a move keeps dq up to date.
-template <class G>
-void gather_start(const NodesOn<G>& start, const NodeEight& eight, Mover<G, Pack>& from) {
-  if constexpr (std::is_same_v<G, Se3>)
-    gather<2 * G::dof>(start.motion.data(), eight, &from.v[0], NodeNumbers<G>::v);
-  else
-    gather_motion(start, eight, from);
-}
-void measure_increment(const Mover<Se3, Pack>&, Mover<Se3, Pack>&) {}
-/// dq = log(H_start^-1 H), with the accumulated angle, which is correct beyond half a turn. Computed from the poses, it
-/// contains no accumulated rounding of single corrections.
-void measure_increment(const Mover<Se2, Pack>& from, Mover<Se2, Pack>& m) {
+/// Measures the increment since the start of the step. In space a move keeps it up to date.
+void measure_increment(const NodesOn<Se3>&, const DriftedStart<Se3>&, std::size_t, const NodeEight&,
+                       Mover<Se3, Pack>&) {}
+/// dq = log(H_start^-1 H), seen from the frame that drifts, with the accumulated angle, which is correct beyond half a
+/// turn. Computed from the poses, it contains no accumulated rounding of single corrections.
+void measure_increment(const NodesOn<Se2>& start, const DriftedStart<Se2>& drifted, std::size_t k,
+                       const NodeEight& eight, Mover<Se2, Pack>& m) {
+  Mover<Se2, Pack> from;
+  gather_pose(start, eight, from);
   const Pack angle = m.dq[2];
-  const Vec2<Pack> way = motion::conjugate_times(from.R, motion::difference(m.x, from.x));
+  const Vec2<Pack> way =
+      motion::conjugate_times(from.R, motion::difference(m.x, from.x)) - drifted.eights[k].way;
   const Vec2<Pack> inverse{{motion::half_cotangent(Pack(angle * angle)), -0.5 * angle}};
   m.dq = motion::join(motion::complex_times(inverse, way), angle);
 }
 template <int N>
-void measure_increment(const Mover<motion::Translations<N>, Pack>& from, Mover<motion::Translations<N>, Pack>& m) {
+void measure_increment(const NodesOn<motion::Translations<N>>& start, const DriftedStart<motion::Translations<N>>&,
+                       std::size_t, const NodeEight& eight, Mover<motion::Translations<N>, Pack>& m) {
+  Mover<motion::Translations<N>, Pack> from;
+  gather_pose(start, eight, from);
   m.dq = motion::difference(m.x, from.x);
+}
+
+/// v, dv/dt and a_n at the start of a step, relative to the frames that drift.
+template <class G>
+struct StartRates {
+  VectorLanes<G> v, a, algorithmic;
+  StartRates(const NodesOn<G>& start, const DriftedStart<G>& drifted, std::size_t k, const NodeEight& eight) {
+    if constexpr (G::turns) {
+      const typename DriftedStart<G>::Eight& of = drifted.eights[k];
+      v = of.v;
+      a = of.a;
+      algorithmic = of.algorithmic;
+    } else {
+      VectorLanes<G> rates[2];
+      gather<2 * G::dof>(start.motion.data(), eight, &rates[0][0], NodeNumbers<G>::v);
+      v = rates[0];
+      a = rates[1];
+      algorithmic = start.algorithmic.eight(k);
+    }
+  }
+};
+
+/// Sets v, dv/dt and the drift of nodes whose poses are known from the rates relative to frames of velocity `velocity`.
+template <class G>
+void set_rates(const AlphaRule::Rates<VectorLanes<G>>& now, const typename DriftedStart<G>::Translation& velocity,
+               const DriftChoice<G>& choice, Mover<G, Pack>& m) {
+  using Translation = typename DriftedStart<G>::Translation;
+  const typename G::template Pose<Pack> H{m.R, Translation::zero()};
+  Drift<G, Pack> drift{G::turned_back(H, velocity), Translation::zero()};
+  if (choice.falls) drift.fall = G::turned_back(H, lanes::cast<Pack>(choice.fall));
+  const Translation rate = drift.rate(now.v);
+  m.v = without<G, Pack>(now.v, -drift.velocity);
+  m.a = without<G, Pack>(now.a, -rate);
+  m.drift = drift.velocity;
 }
 
 }  // namespace
 
 template <class G>
-double correct_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, const NodeOrder& order,
-                     std::size_t begin, std::size_t end, const NodeIncrements& increments, NodeChange<G>* changes) {
+double correct_nodes(const AlphaRule& rule, const Drifts<G>& drifts, const NodesOn<G>& start, NodesOn<G>& state,
+                     const NodeOrder& order, std::size_t begin, std::size_t end, const NodeIncrements& increments,
+                     NodeChange<G>* changes) {
   Pack turned(0.0);
   for (std::size_t k = begin; k < end; ++k) {
     const NodeEight& eight = order.eights()[k];
-    Mover<G, Pack> m = gather_moving(state, eight), from;
-    gather_start(start, eight, from);
+    Mover<G, Pack> m = gather_moving(state, eight);
     const VectorLanes<G> eta = gather_increments<G>(increments, eight);
     note_change(m, eta, eight, changes);
     move_by(m, eta);
-    measure_increment(from, m);
-    const auto now = rule.follow(m.dq, from.v, from.a, start.algorithmic.eight(k));
-    m.v = now.v;
-    m.a = now.a;
+    measure_increment(start, drifts.start, k, eight, m);
+    const StartRates<G> from(start, drifts.start, k, eight);
+    const auto now = rule.follow(m.dq, from.v, from.a, from.algorithmic);
+    if constexpr (G::turns) {
+      set_rates<G>(now, drifts.start.eights[k].velocity, drifts.choice, m);
+    } else {
+      m.v = now.v;
+      m.a = now.a;
+    }
     scatter_motion<NodeNumbers<G>::all>(m, state, eight);
     turned = larger(turned, angular_square<G>(m.dq));
   }
@@ -307,22 +348,53 @@ void keep_held(const NodesOn<G>& start, NodesOn<G>& state, const NodeOrder& orde
   }
 }
 
+namespace {
+
+/// Chooses the frames of eight nodes at the start of a step, and takes the start to these frames. Rates of a frame at
+/// the time of a_n follow from two terms of their series.
 template <class G>
-double predict_nodes(const AlphaRule& rule, int degree, const NodesOn<G>& start, NodesOn<G>& state,
-                     const NodeOrder& order, std::size_t begin, std::size_t end) {
+void drift_from(const AlphaRule& rule, const DriftChoice<G>& choice, const Mover<G, Pack>& m,
+                const VectorLanes<G>& algorithmic, std::size_t k, typename DriftedStart<G>::Eight& to) {
+  using Translation = typename DriftedStart<G>::Translation;
+  const double h = rule.h, least = least_turn / h;
+  const typename G::template Pose<Pack> H{m.R, Translation::zero()};
+  const Drift<G, Pack> drift =
+      choose_drift<G, Pack>(H, m.v, m.a, choice.centers[k], lanes::cast<Pack>(choice.fall), least * least);
+  const Translation rate = drift.rate(m.v), second = drift.second(m.v, m.a);
+  to.v = without<G, Pack>(m.v, drift.velocity);
+  to.a = without<G, Pack>(m.a, rate);
+  to.algorithmic = without<G, Pack>(algorithmic, Translation(rate + (rule.c.shift() * h) * second));
+  to.way = h * drift.velocity + (0.5 * h * h) * drift.fall;
+  to.velocity = G::turned(H, Translation(drift.velocity + h * drift.fall));
+}
+
+}  // namespace
+
+template <class G>
+double predict_nodes(const AlphaRule& rule, const Drifts<G>& drifts, int degree, const NodesOn<G>& start,
+                     NodesOn<G>& state, const NodeOrder& order, std::size_t begin, std::size_t end) {
   Pack turned(0.0);
   for (std::size_t k = begin; k < end; ++k) {
     const NodeEight& eight = order.eights()[k];
     Mover<G, Pack> m;
     gather_motion(start, eight, m);
-    const VectorLanes<G>& algorithmic = start.algorithmic.eight(k);
+    if constexpr (G::turns) drift_from(rule, drifts.choice, m, start.algorithmic.eight(k), k, drifts.start.eights[k]);
+    const StartRates<G> from(start, drifts.start, k, eight);
     const VectorLanes<G> change =
         predicted_change(degree, start.acceleration_trend.eight(k), start.trend_change.eight(k));
-    const VectorLanes<G> eta = rule.predict(m.v, m.a, algorithmic, change);
-    m.move(eta, false);
-    const auto now = rule.follow(eta, m.v, m.a, algorithmic);
-    m.v = now.v;
-    m.a = now.a;
+    const VectorLanes<G> eta = rule.predict(from.v, from.a, from.algorithmic, change);
+    const auto now = rule.follow(eta, from.v, from.a, from.algorithmic);
+    if constexpr (G::turns) {
+      const typename G::template Pose<Pack> H{m.R, DriftedStart<G>::Translation::zero()};
+      const auto way = G::turned(H, drifts.start.eights[k].way);
+      m.move(eta, false);
+      m.x.add(way);
+      set_rates<G>(now, drifts.start.eights[k].velocity, drifts.choice, m);
+    } else {
+      m.move(eta, false);
+      m.v = now.v;
+      m.a = now.a;
+    }
     m.dq = eta;
     scatter_motion<NodeNumbers<G>::all>(m, state, eight);
     turned = larger(turned, angular_square<G>(eta));
@@ -331,9 +403,9 @@ double predict_nodes(const AlphaRule& rule, int degree, const NodesOn<G>& start,
 }
 
 template <class G>
-Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_length, const NodesOn<G>& start,
-                                NodesOn<G>& state, const NodeOrder& order, std::size_t begin, std::size_t end,
-                                Misses* misses) {
+Workspace::StepEnd finish_nodes(const AlphaRule& rule, const Drifts<G>& drifts, double arm, double per_length,
+                                const NodesOn<G>& start, NodesOn<G>& state, const NodeOrder& order, std::size_t begin,
+                                std::size_t end, Misses* misses) {
   using Numbers = NodeNumbers<G>;
   const auto size = [arm](const VectorLanes<G>& a) {
     return Pack(lanes::dot(G::linear(a), G::linear(a)) + arm * arm * angular_square<G>(a));
@@ -345,15 +417,23 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_le
   Pack error(0.0), increment(0.0), of_changes(0.0);
   for (std::size_t k = begin; k < end; ++k) {
     const NodeEight& eight = order.eights()[k];
-    VectorLanes<G> rates[3], before[2];  // v, dv/dt and dq
+    VectorLanes<G> rates[3];  // v, dv/dt and dq
     gather<3 * G::dof>(state.motion.data(), eight, &rates[0][0], Numbers::v);
-    gather<2 * G::dof>(start.motion.data(), eight, &before[0][0], Numbers::v);
+    const StartRates<G> from(start, drifts.start, k, eight);
     const VectorLanes<G>&trend = start.acceleration_trend.eight(k), &of_trend = start.trend_change.eight(k);
-    const VectorLanes<G> change = rates[1] - before[1], of_change = change - trend;
-    state.algorithmic.eight(k) = rule.follow(rates[2], before[0], before[1], start.algorithmic.eight(k)).algorithmic;
+    const auto now = rule.follow(rates[2], from.v, from.a, from.algorithmic);
+    const VectorLanes<G> change = now.a - from.a, of_change = change - trend;
+    state.algorithmic.eight(k) = now.algorithmic;
+    if constexpr (G::turns) {
+      Drift<G, Pack> drift;
+      drift.velocity = G::linear(rates[0]) - G::linear(now.v);
+      drift.fall = G::linear(rates[1]) - G::linear(now.a) + G::spin(now.v, drift.velocity);
+      const auto later = drift.rate(now.v) + (rule.c.shift() * rule.h) * drift.second(now.v, now.a);
+      state.algorithmic.eight(k) = without<G, Pack>(now.algorithmic, -later);
+    }
     const Pack miss[std::tuple_size_v<Misses>] = {size(change), size(of_change), size(of_change - of_trend)};
     scatter<std::tuple_size_v<Misses>>(miss, misses, eight);
-    note_largest(rule.local_error(change, motion::VectorsOn<G>::template bracket<Pack>(rates[0], rates[1])), error);
+    note_largest(rule.local_error(change, motion::VectorsOn<G>::template bracket<Pack>(now.v, now.a)), error);
     note_largest(rates[2], increment);
     note_largest(of_change, of_changes);
     state.acceleration_trend.eight(k) = change;
@@ -406,12 +486,12 @@ double largest_change(std::span<const PairLanes> pairs, const NodeChange<G>* cha
   template void move_node<G>(NodesOn<G>&, std::size_t, const G::Vector<double>&);                                      \
   template void place_node<G>(const NodesOn<G>&, std::size_t, const G::Vector<double>&, NodesOn<G>&);                  \
   template void keep_held<G>(const NodesOn<G>&, NodesOn<G>&, const NodeOrder&);                                        \
-  template double predict_nodes<G>(const AlphaRule&, int, const NodesOn<G>&, NodesOn<G>&, const NodeOrder&,            \
-                                   std::size_t, std::size_t);                                                          \
-  template double correct_nodes<G>(const AlphaRule&, const NodesOn<G>&, NodesOn<G>&, const NodeOrder&, std::size_t,    \
-                                   std::size_t, const NodeIncrements&, NodeChange<G>*);                                \
-  template Workspace::StepEnd finish_nodes<G>(const AlphaRule&, double, double, const NodesOn<G>&, NodesOn<G>&,        \
-                                              const NodeOrder&, std::size_t, std::size_t, Misses*);                    \
+  template double predict_nodes<G>(const AlphaRule&, const Drifts<G>&, int, const NodesOn<G>&, NodesOn<G>&,            \
+                                   const NodeOrder&, std::size_t, std::size_t);                                        \
+  template double correct_nodes<G>(const AlphaRule&, const Drifts<G>&, const NodesOn<G>&, NodesOn<G>&,                 \
+                                   const NodeOrder&, std::size_t, std::size_t, const NodeIncrements&, NodeChange<G>*); \
+  template Workspace::StepEnd finish_nodes<G>(const AlphaRule&, const Drifts<G>&, double, double, const NodesOn<G>&,   \
+                                              NodesOn<G>&, const NodeOrder&, std::size_t, std::size_t, Misses*);       \
   template double largest_change<G>(std::span<const PairLanes>, const NodeChange<G>*);
 BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
 

@@ -8,6 +8,7 @@
 
 #include "alpha_rule.hpp"
 #include "bough/step/system.hpp"
+#include "drift.hpp"
 
 namespace bough::step {
 
@@ -44,31 +45,40 @@ template <class G>
 void move_nodes(NodesOn<G>& nodes, std::span<const NodeEight> eights, const NodeIncrements& increments,
                 NodeChange<G>* changes);
 
+/// The frames of a step of generalized-alpha: what chooses them, and the step's start relative to them, which
+/// predict_nodes writes. Both are empty where nothing turns.
+template <class G>
+struct Drifts {
+  const DriftChoice<G>& choice;
+  DriftedStart<G>& start;
+};
+
 /// Applies a correction of generalized-alpha in one pass: the poses and dq as above, all components of dq on every
 /// group, and the velocities and accelerations that the rule assigns to dq. Returns the largest squared angle of dq.
 /// Stores the changes as note_changes.
 template <class G>
-double correct_nodes(const AlphaRule& rule, const NodesOn<G>& start, NodesOn<G>& state, const NodeOrder& order,
-                     std::size_t begin, std::size_t end, const NodeIncrements& increments, NodeChange<G>* changes);
+double correct_nodes(const AlphaRule& rule, const Drifts<G>& drifts, const NodesOn<G>& start, NodesOn<G>& state,
+                     const NodeOrder& order, std::size_t begin, std::size_t end, const NodeIncrements& increments,
+                     NodeChange<G>* changes);
 
 /// Copies the nodes without unknowns from the start of a step to its end: they are at rest.
 template <class G>
 void keep_held(const NodesOn<G>& start, NodesOn<G>& state, const NodeOrder& order);
 
-/// Predictor: sets poses, rates and dq of the nodes of `state` from those of `start`. Returns the largest squared angle
-/// of dq. degree: of the polynomial through past accelerations.
+/// Predictor: chooses the frames of the nodes of `state`, and sets their poses, rates and dq from those of `start`.
+/// Returns the largest squared angle of dq. degree: of the polynomial through past accelerations.
 template <class G>
-double predict_nodes(const AlphaRule& rule, int degree, const NodesOn<G>& start, NodesOn<G>& state,
-                     const NodeOrder& order, std::size_t begin, std::size_t end);
+double predict_nodes(const AlphaRule& rule, const Drifts<G>& drifts, int degree, const NodesOn<G>& start,
+                     NodesOn<G>& state, const NodeOrder& order, std::size_t begin, std::size_t end);
 
 /// At the end of a step: stores the acceleration-like variable, and the changes of accelerations for the next
 /// predictor, stores the squared errors of the predictors of order 0, 1, 2 by node, and returns the local error, the
 /// size of dq and that of the second difference of accelerations. `arm` [m] converts angular to linear accelerations;
 /// `per_length` [1/m] makes lengths relative.
 template <class G>
-Workspace::StepEnd finish_nodes(const AlphaRule& rule, double arm, double per_length, const NodesOn<G>& start,
-                                NodesOn<G>& state, const NodeOrder& order, std::size_t begin, std::size_t end,
-                                Misses* misses);
+Workspace::StepEnd finish_nodes(const AlphaRule& rule, const Drifts<G>& drifts, double arm, double per_length,
+                                const NodesOn<G>& start, NodesOn<G>& state, const NodeOrder& order, std::size_t begin,
+                                std::size_t end, Misses* misses);
 
 /// The largest squared relative displacement or rotation of the pairs (Corrections::relative_size); infinite if one
 /// exceeds the bound too_far or is not a number.

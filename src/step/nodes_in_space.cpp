@@ -86,6 +86,12 @@ elements::NodeLanes show(const Mat3<double>& axes, const Start<G>& start, const 
   to.v = in_space<G>(start.basis, node.v);
   to.a = in_space<G>(start.basis, node.a);
   to.dq = in_space<G>(start.basis, node.dq);
+  to.drift = Vec3<Pack>::zero();
+  if constexpr (G::turns) {
+    auto drift = G::template Vector<Pack>::zero();
+    for (int i = 0; i < G::translations; ++i) drift[i] = node.drift[i];
+    to.drift = lanes::linear_part(in_space<G>(start.basis, drift));
+  }
   return to;
 }
 

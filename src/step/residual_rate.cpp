@@ -9,7 +9,8 @@ namespace bough::step {
 namespace {
 
 template <class G>
-void add_rates(System& system, const State& state, double step_size, std::vector<double>& rate) {
+void add_rates(System& system, const State& state, double step_size, const std::vector<double>* jerk,
+               std::vector<double>& rate) {
   using T = lanes::Taylor<double, 1>;
   const plan::Plan& plan = system.plan();
   const Instant& instant = system.instant();
@@ -17,7 +18,7 @@ void add_rates(System& system, const State& state, double step_size, std::vector
   std::vector<T> laws = instant.rate_series();
   std::vector<double> second;
   system.signals().add_rates(state, laws, second);
-  for (std::size_t i = 0; i < second.size(); ++i) rate[system.places().signals()[i]] = -second[i];
+  for (std::size_t i = 0; i < system.places().signals().size(); ++i) rate[system.places().signals()[i]] = -second[i];
   const T strength = laws[static_cast<std::size_t>(plan.gravity_law)];
   motion::Vec3<T> gravity;
   for (int k = 0; k < 3; ++k) gravity[k] = plan.gravity[k] * strength;
@@ -51,7 +52,14 @@ void add_rates(System& system, const State& state, double step_size, std::vector
     const double turns = joint == nullptr ? 0.0 : state.turns[static_cast<std::size_t>(j)];
     const double* from = part.data();
     plan::with_element(plan::arrays_on<G>(plan), plan.directory[e], [&](const auto& element) {
-      elements::evaluate_rate(element, f, around, multipliers, turns, part.data());
+      using E = std::decay_t<decltype(element)>;
+      typename G::template Vector<double> jerks[E::num_ports];
+      if (jerk != nullptr)
+        for (int k = 0; k < E::num_ports; ++k) {
+          const int node = element.ports[k].node;
+          if (node != elements::ground) jerks[k] = system.places().part_on<G>(jerk->data(), node);
+        }
+      elements::evaluate_rate(element, f, around, multipliers, turns, jerk == nullptr ? nullptr : jerks, part.data());
     });
     for_each_part(plan, e, [&](int block, int size, int node) {
       for (int i = 0; i < num_kept(plan, block, size, node); ++i)
@@ -63,9 +71,10 @@ void add_rates(System& system, const State& state, double step_size, std::vector
 
 }  // namespace
 
-void evaluate_rate(System& system, const State& state, std::vector<double>& rate, double step_size) {
+void evaluate_rate(System& system, const State& state, std::vector<double>& rate, double step_size,
+                   const std::vector<double>* jerk) {
   rate.assign(system.places().size(), 0.0);
-  state.visit([&]<class G>(const NodesOn<G>&) { add_rates<G>(system, state, step_size, rate); });
+  state.visit([&]<class G>(const NodesOn<G>&) { add_rates<G>(system, state, step_size, jerk, rate); });
 }
 
 }  // namespace bough::step

@@ -3,6 +3,7 @@
 #include "bough/motion/vectors_on.hpp"
 #include "bough/step/advance.hpp"
 #include "bough/step/residual_rate.hpp"
+#include "drift.hpp"
 #include "element_parts.hpp"
 #include "first_order.hpp"
 #include "start_parts.hpp"
@@ -112,6 +113,7 @@ void set_unmoved(State& state, bool with_accelerations) {
   state.change_all([&]<class G>(NodesOn<G>& nodes) {
     for (auto& n : nodes.motion) {
       n.dq = NodesOn<G>::Vector::zero();
+      n.drift = {};
       if (with_accelerations) n.a = n.dq;
     }
   });
@@ -212,6 +214,37 @@ StartReport make_consistent_on(System& system, State& state, bool fix_positions,
   return report;
 }
 
+namespace {
+
+/// Twist of the frame relative to which generalized-alpha describes a node, with two derivatives, in the node's axes.
+template <class G>
+struct FrameRates {
+  typename G::template Vector<double> twist = G::template Vector<double>::zero(), twist_rate = twist, jerk = twist;
+};
+/// That of the step of size h that begins with these nodes.
+template <class G>
+FrameRates<G> frame_of(System& system, const NodesOn<G>& nodes, std::size_t n, double h) {
+  FrameRates<G> frame;
+  if constexpr (G::turns) {
+    const auto& choice = std::get<DriftChoice<G>>(system.work().drift_choice);
+    const NodeOrder::Place at = system.node_order()->place(n);
+    const auto& node = nodes.motion[n];
+    const double least = least_turn / h;
+    const Drift<G, double> drift = choose_drift<G, double>(
+        {node.R, G::template Translation<double>::zero()}, node.v, node.a,
+        lanes::get_lane(choice.centers[at.eight], at.lane), choice.fall, least * least);
+    const auto rate = drift.rate(node.v), second = drift.second(node.v, node.a);
+    for (int i = 0; i < G::translations; ++i) {
+      frame.twist[i] = drift.velocity[i];
+      frame.twist_rate[i] = rate[i];
+      frame.jerk[i] = second[i];
+    }
+  }
+  return frame;
+}
+
+}  // namespace
+
 StartReport start_alpha(System& system, State& state, const StepOptions& options, double h) {
   const AlphaCoefficients c = make_alpha_coefficients(options.spectral_radius);
   const FirstOrderRule states(options.spectral_radius, h);
@@ -220,22 +253,39 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   // modes faster than the step are filtered, smooth ones change by O(h) only.
   const double acceleration = (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h);
   // Rows take third derivatives of signals from their series: the unknown of a state is its second one.
-  const elements::Slopes slopes{c.gamma / (c.beta * h), acceleration, false, states.slope(),
-                                system.plan().signals_drive};
+  elements::Slopes slopes{c.gamma / (c.beta * h), acceleration, false, states.slope(), system.plan().signals_drive};
   std::vector<double> rate, rhs(system.places().size()), x(system.places().size());
   std::vector<Taylor<double, 3>> series;
-  evaluate_rate(system, state, rate, h);
+  // Unknown is the part of v'' that is left relative to the frames of the first step, of which free flight has none.
+  std::vector<double> frame_jerk(system.places().size(), 0.0), of_frames;
+  state.change_all([&]<class G>(NodesOn<G>& nodes) {
+    slopes.drifts = G::turns;
+    slopes.falls = std::get<DriftChoice<G>>(system.work().drift_choice).falls;
+    for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
+      const FrameRates<G> frame = frame_of(system, nodes, n, h);
+      system.places().set_node_part(frame_jerk.data(), static_cast<int>(n), frame.jerk);
+      if constexpr (G::turns) nodes.motion[n].drift = G::linear(frame.twist);
+    }
+  });
+  evaluate_rate(system, state, rate, h, &frame_jerk);
   system.constraints().series(state, nullptr, h, series);
+  std::vector<double> second_rates;
+  std::vector<lanes::Taylor<double, 1>> law_rates = system.instant().rate_series();
+  system.signals().add_rates(state, law_rates, second_rates);
   if (const auto t = system.evaluate(state, slopes, true)) return failed(t->text);
   if (const auto t = system.linear().factor(true, slopes)) return failed(t->text);
   for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = -acceleration * rate[i];
-  set_rows(system, rhs, [&](std::size_t m) { return -6.0 * series[m].c[3]; });
+  eval_rates(system, frame_jerk, of_frames);
+  set_rows(system, rhs, [&](std::size_t m) { return -6.0 * series[m].c[3] - of_frames[m]; });
   if (const auto t = system.linear().solve(rhs.data(), x.data())) return failed(t->text);
   // In this scaling an unknown of a state is s'' times a ratio of slopes; other signals were differentiated already.
   SignalValues& signals = state.signals;
   for (std::size_t i = 0; i < signals.value.size(); ++i) {
     const bool is_state = system.plan().signals[i].is_state();
-    const double second = is_state ? states.slope() / acceleration * x[system.places().signals()[i]] : 0.0;
+    const bool drives = i < system.places().signals().size();
+    const double second = !is_state ? 0.0
+                          : drives  ? states.slope() / acceleration * x[system.places().signals()[i]]
+                                    : second_rates[i];
     signals.algorithmic[i] = signals.rate[i] + states.shift() * h * second;
     signals.trend[i] = h * second;
   }
@@ -250,13 +300,15 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
       const auto& node = nodes.motion[n];
       const typename NodesOn<G>::Vector jerk = part_on<G>(system, x, n);
-      nodes.algorithmic.set(n, node.a + (c.shift() * h) * jerk);
+      const FrameRates<G> frame = frame_of(system, nodes, n, h);
+      nodes.algorithmic.set(n, node.a + (c.shift() * h) * typename NodesOn<G>::Vector(jerk + frame.jerk));
       nodes.acceleration_trend.set(n, h * jerk);
       system.places().set_node_part(
           steady_error.data(), static_cast<int>(n),
           typename NodesOn<G>::Vector((-h * h) *
                                       (c.error_of_increments() * jerk -
-                                       (1.0 / 12.0) * motion::VectorsOn<G>::template bracket<double>(node.v, node.a))));
+                                       (1.0 / 12.0) * motion::VectorsOn<G>::template bracket<double>(
+                                           node.v - frame.twist, node.a - frame.twist_rate))));
     }
   });
   state.step_size = h;

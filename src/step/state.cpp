@@ -47,6 +47,7 @@ State make_initial_state(const plan::Plan& plan) {
     node.v = plan.nodes[i].twist;
     if (plan.nodes[i].is_point) node.v = lanes::join(lanes::linear_part(node.v), Vec3<double>::zero());
     node.a = node.dq = Vec6<double>::zero();
+    node.drift = Vec3<double>::zero();
   }
   elements::Field field;
   field.nodes = nodes.motion.data();
@@ -65,7 +66,7 @@ State make_initial_state(const plan::Plan& plan) {
       const std::vector<plan::NodeStartOn<G>>& starts = std::get<plan::ModelOn<G>>(plan.model).nodes;
       for (std::size_t i = 0; i < n; ++i)
         reduced.motion[i] = {starts[i].turn, starts[i].x, restricted(plan, reduced, i, plan.nodes[i].twist), none,
-                             none};
+                             none, {}};
     }
   });
   return s;

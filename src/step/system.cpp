@@ -3,6 +3,7 @@
 #include <string>
 
 #include "bough/step/step_cost.hpp"
+#include "drift.hpp"
 #include "held_nodes.hpp"
 
 namespace bough::step {
@@ -26,6 +27,10 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
       corrections_(plan, places_, instant_, lengths_, linear_, node_order_, walker, clock_, counts_) {
   work_.rhs.assign(places_.size(), 0.0);
   work_.x = work_.rhs;
+  plan.with_group([&]<class G>() {
+    auto& choice = work_.drift_choice.emplace<DriftChoice<G>>(make_drift_choice<G>(plan, *node_order_));
+    work_.drifted.emplace<DriftedStart<G>>().eights.resize(choice.centers.size());
+  });
   linear_.set_renewal_cost(estimate_step_cost(*this).renewal());
 }
 

@@ -111,15 +111,33 @@ std::vector<S> node_residual(const E& e, const std::vector<NodeState<S>>& nodes,
   return r;
 }
 
+/// Velocity and acceleration of a frame that drifts and falls, as components in the axes of a node that turns:
+///   v += (b; 0),  a += (c - w x b; 0) with the angular velocity w that v has.
+template <class S>
+void add_drift_to(NodeState<S>& n, const Vec3<S>& b, const Vec3<S>& c, double sign) {
+  const Vec3<S> rate = c - lanes::cross(lanes::angular_part(n.v), b);
+  for (int i = 0; i < 3; ++i) {
+    n.v[i] += sign * b[i];
+    n.a[i] += sign * rate[i];
+  }
+}
+
 /// Node moved by the iteration's increment eta, velocity and acceleration following as Slopes says.
 template <class S>
-NodeState<S> stepped(const NodeState<S>& n, const Vec6<double>& dq, const Slopes& slopes, bool moves,
-                     const Vec6<S>& eta) {
+NodeState<S> stepped(const NodeState<S>& n, const NodeMotion& at, const Slopes& slopes, bool moves,
+                     const Vec3<S>& gravity, const Vec6<S>& eta) {
   NodeState<S> r = n;
-  if (moves) r.H = motion::compose(n.H, motion::exp_se3(eta));
-  const Vec6<S> of_coordinates = motion::inverse_tangent(lanes::cast<S>(dq)) * eta;
+  const Frame<S> step = motion::exp_se3(eta);
+  if (moves) r.H = motion::compose(n.H, step);
+  const Vec6<S> of_coordinates = motion::inverse_tangent(lanes::cast<S>(at.dq)) * eta;
+  const Vec3<S> none = Vec3<S>::zero(), drift = slopes.drifts ? lanes::cast<S>(at.drift) : none;
+  const auto fall = [&](const NodeState<S>& of) {
+    return slopes.falls ? lanes::transpose_times(of.H.R, gravity) : none;
+  };
+  add_drift_to(r, drift, fall(n), -1.0);
   r.v += slopes.velocity * of_coordinates;
   r.a += slopes.mass_only ? eta : slopes.acceleration * of_coordinates;
+  add_drift_to(r, lanes::transpose_times(step.R, drift), fall(r), 1.0);
   return r;
 }
 
@@ -144,7 +162,7 @@ std::vector<double> complex_tangent(const Sample<E>& s, const Field& field) {
     ++column;
   };
   Slopes slopes = field.slopes;
-  if (!field.around.has_inertia) slopes.velocity = slopes.acceleration = 0.0;
+  if (!field.around.has_inertia) slopes.velocity = slopes.acceleration = 0.0, slopes.drifts = slopes.falls = false;
   if (slopes.mass_only) slopes.velocity = slopes.acceleration = 0.0;
   for (const Port& port : e.ports) {
     if (port.node == ground) continue;
@@ -152,13 +170,13 @@ std::vector<double> complex_tangent(const Sample<E>& s, const Field& field) {
       std::vector<NodeState<Complex>> states = states_of<Complex>(s.nodes, anchor);
       NodeState<Complex>& node = states[static_cast<std::size_t>(port.node)];
       const Vec6<Complex> eta = Complex(0.0, complex_step) * Vec6<Complex>::unit(k);
-      node = stepped(node, s.nodes[static_cast<std::size_t>(port.node)].dq, slopes, !slopes.mass_only, eta);
+      node = stepped(node, s.nodes[static_cast<std::size_t>(port.node)], slopes, !slopes.mass_only, around.gravity, eta);
       std::vector<Complex> r =
           node_residual(e, states, anchor.hi, complex_of(s.multipliers), around, s.turns, observer);
       if (slopes.mass_only && m > 0) {  // rows keep the gradient of positions: G a, as in the constraint's second rate
         states = states_of<Complex>(s.nodes, anchor);
         NodeState<Complex>& moved = states[static_cast<std::size_t>(port.node)];
-        moved = stepped(moved, Vec6<double>::zero(), Slopes{}, true, eta);
+        moved = stepped(moved, s.nodes[static_cast<std::size_t>(port.node)], Slopes{}, true, around.gravity, eta);
         const auto rows = node_residual(e, states, anchor.hi, complex_of(s.multipliers), around, s.turns, observer);
         for (int i = n - m; i < n; ++i) r[static_cast<std::size_t>(i)] = rows[static_cast<std::size_t>(i)];
       }

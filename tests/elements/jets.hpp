@@ -39,6 +39,22 @@ inline Mat3<double> inverse_tangent_by_series(const Vec3<double>& d) {
   return {{c, s, -(c * T(0, 2) + s * T(1, 2)), -s, c, s * T(0, 2) - c * T(1, 2), 0, 0, 1}};
 }
 
+/// A frame with the velocity b and, if it falls, the acceleration c in the node's axes adds (b; 0) to v and (c - w x b;
+/// 0) to a; b and c turn back by theta where the node turns by it. Adds the derivatives from column `begin` on.
+template <class T>
+void add_drift_to(const FieldOn<motion::Se2, double>& field, int node, int begin, PortMotionOn<motion::Se2, T>& p) {
+  const auto& n = field.nodes[node];
+  const auto& g = field.around.gravity;
+  double c[2] = {n.R[0] * g[0] + n.R[1] * g[1], n.R[0] * g[1] - n.R[1] * g[0]};
+  if (!field.slopes.falls) c[0] = c[1] = 0.0;
+  const double turned_back[2][2] = {{n.drift[1], -n.drift[0]}, {c[1], -c[0]}}, w = n.v[2];
+  for (int i = 0; i < 2; ++i) {
+    p.v[i].d[begin + 2] += turned_back[0][i];
+    p.a[i].d[begin + 2] += turned_back[1][i] - w * n.drift[i];
+    for (int j = 0; j < 3; ++j) p.a[i].d[begin + j] += p.v[2].d[begin + j] * turned_back[0][i];
+  }
+}
+
 struct JetResult {
   std::vector<double> residual, tangent;
 };
@@ -96,6 +112,8 @@ JetResult evaluate_on_jets(const E& e, const FieldOn<typename E::Group, double>&
             if (!held) p[k].v[i].d[dof * k + j] = field.slopes.velocity * U(i, j);
             p[k].a[i].d[dof * k + j] = held ? U(i, j) : field.slopes.acceleration * U(i, j);
           }
+        if constexpr (G::turns)
+          if (field.slopes.drifts && !held) add_drift_to(field, port.node, 3 * k, p[k]);
       }
       if (!port.has_offset) continue;
       const auto offset = lanes::cast<T>(port.offset.x);

@@ -50,7 +50,8 @@ void place(Sample<E>& s, const Kind& kind, unsigned seed, Numbers& numbers) {
                   {{{0.7 * k + numbers.next(0.2), numbers.next(0.5)}}, {{numbers.next(1e-17), numbers.next(1e-17)}}},
                   numbers.vec3(),
                   numbers.vec3(),
-                  numbers.vec3(seed == 0 ? 0.0 : 1.5)};
+                  numbers.vec3(seed == 0 ? 0.0 : 1.5),
+                  {{0.6, -1.1}}};
     if (kind.has_offsets && k != 1)
       s.element.ports[k] = {
           k, true, {turned(angle == 0.0 ? 0.0 : numbers.next(0.3)), {{numbers.next(), numbers.next()}}}};
@@ -139,7 +140,8 @@ SurroundingsOn<Se2, double> surroundings(bool has_inertia) { return {{{1.5, -9.8
 /// All kinds, in statics, in a time step and at a consistent start.
 template <class Visit>
 void visit_cases(const Visit& visit) {
-  const Slopes step{1.7, 2.9, false}, start{0.0, 0.0, true};
+  const Slopes step{1.7, 2.9, false}, drifting{1.7, 2.9, false, 0.0, false, true, false},
+      falling{1.7, 2.9, false, 0.0, false, true, true}, start{0.0, 0.0, true};
   for (const bool has_mass : {false, true})
     for (const bool has_damping : {false, true})
       for (const bool has_offsets : {false, true})
@@ -149,6 +151,8 @@ void visit_cases(const Visit& visit) {
                                           << has_offsets << ", on the ground " << on_ground);
           visit(kind, false, Slopes{});
           visit(kind, true, step);
+          visit(kind, true, drifting);
+          visit(kind, true, falling);
           visit(kind, true, start);
           visit(kind, false, start);
         }

@@ -69,7 +69,9 @@ struct Sample {
 };
 
 inline NodeMotion moving(const Frame<double>& H, Numbers& numbers) {
-  return {H.R, motion::Vec3Pair::from(H.x), numbers.vec6(), numbers.vec6(), numbers.vec6(0.4)};
+  NodeMotion n{H.R, motion::Vec3Pair::from(H.x), numbers.vec6(), numbers.vec6(), numbers.vec6(0.4), {}};
+  n.drift = -1.7 * lanes::linear_part(n.a);
+  return n;
 }
 
 /// Puts nodes under the ports so that port k is at poses[k]; ports on the ground take the pose as their offset.

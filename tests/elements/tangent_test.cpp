@@ -38,6 +38,11 @@ TEST(ElementTangent, follows_velocity_and_acceleration_of_the_time_step) {
   for_all_elements([](const auto& s) { expect_tangent(s, true, Slopes{3.1, 7.3, false}); });
 }
 
+TEST(ElementTangent, follows_a_time_step_described_in_a_frame_that_drifts_and_falls) {
+  for_all_elements([](const auto& s) { expect_tangent(s, true, Slopes{3.1, 7.3, false, 0.0, false, true, false}); });
+  for_all_elements([](const auto& s) { expect_tangent(s, true, Slopes{3.1, 7.3, false, 0.0, false, true, true}); });
+}
+
 TEST(ElementTangent, of_a_consistent_start_is_the_mass_and_the_rows_gradient) {
   for_all_elements([](const auto& s) { expect_tangent(s, true, Slopes{0.0, 0.0, true}); });
 }

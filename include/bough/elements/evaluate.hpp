@@ -15,27 +15,38 @@
 
 namespace bough::elements {
 
+/// What a frame that does not turn has in place of a drift.
+struct NoDrift {};
+/// Velocity of the inertial frame relative to which an integrator describes a node over a step, in the node's axes.
+template <class G, class S>
+using DriftOf = std::conditional_t<G::turns, typename G::template Translation<S>, NoDrift>;
+
 /// Motion of a node on the group G: rotation, position as a compensated pair, twist and its derivative in the node's
-/// axes, and the increment `dq` since the last accepted step (H = H_n exp(dq)).
+/// axes, the increment `dq` since the last accepted step, and the drift. Seen from the frame that drifts, H = H_n
+/// exp(dq).
 template <class G, class S>
 struct NodeMotionOn {
   [[no_unique_address]] typename G::template Rotation<S> R;
   motion::PositionPair<S, G::translations> x;
   typename G::template Vector<S> v, a, dq;
+  [[no_unique_address]] DriftOf<G, S> drift;
 };
 template <class S>
 using NodeMotionOf = NodeMotionOn<motion::Se3, S>;
 using NodeMotion = NodeMotionOf<double>;
 
 /// How velocity and acceleration follow a position increment eta of the iteration:  dv = velocity T(dq)^-1 eta, da =
-/// acceleration T(dq)^-1 eta. `mass_only`: the unknown is the acceleration itself (a consistent start): dv = 0, da =
-/// eta; constraint rows keep their gradient.
+/// acceleration T(dq)^-1 eta, relative to frames that drift (NodeMotionOn::drift) where the integrator has such.
+/// `mass_only`: the unknown is the acceleration itself (a consistent start): dv = 0, da = eta; constraint rows keep
+/// their gradient.
 struct Slopes {
   double velocity = 0.0;      ///< gamma / (beta h) [1/s]
   double acceleration = 0.0;  ///< (1 - alpha_m) / ((1 - alpha_f) beta h^2) [1/s^2]
   bool mass_only = false;
   double rate = 0.0;          ///< of x' by x of a first-order state [1/s]
   bool holds_drives = false;  ///< the rows of joints do not change with signals that are their laws
+  bool drifts = false;        ///< nodes are described relative to frames that drift
+  bool falls = false;         ///< these frames fall with gravity
 };
 
 /// Motions of all nodes, and the quantities common to all elements of a model.
@@ -194,12 +205,13 @@ void eval_magnitude(const RigidBodyOn<G, C>& e, const FieldOn<G, S>& field, cons
 template <class E>
 Measures measure(const E& e, const Field& field, const double* multipliers, double turns);
 
-/// Time derivative of the residual along the motion with accelerations held constant: positions, velocities, frames of
-/// multipliers and laws advance. Laws are given as value and rate. Of joints only the forces are differentiated.
+/// Time derivative of the residual along the motion: positions, velocities, accelerations, frames of multipliers and
+/// laws advance. Laws are given as value and rate. Of joints only the forces are differentiated. jerks: d2v/dt2 of the
+/// nodes of the ports, null where accelerations are constant.
 template <class E>
 void evaluate_rate(const E& e, const FieldOn<typename E::Group, double>& field,
                    const SurroundingsOn<typename E::Group, lanes::Taylor<double, 1>>& around, const double* multipliers,
-                   double turns, double* residual_rate);
+                   double turns, const typename E::Group::template Vector<double>* jerks, double* residual_rate);
 
 /// Constraint rows of a joint as Taylor coefficients in time up to order 3, along the motion given by twist,
 /// acceleration and jerk (the derivative of the acceleration's components) of its nodes.  out[row] = {Phi, Phi',

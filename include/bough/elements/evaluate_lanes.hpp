@@ -75,8 +75,15 @@ inline constexpr int numbers_of_node = sizeof(NodeMotionOn<G, double>) / sizeof(
 template <class G, int numbers>
 inline constexpr bool has_numbers_of_node = numbers_of_node<G> == numbers &&
                                             sizeof(NodeMotionOn<G, LanePack>) == numbers * sizeof(LanePack);
-static_assert(has_numbers_of_node<motion::Se3, 33> && has_numbers_of_node<motion::Se2, 15>);
+static_assert(has_numbers_of_node<motion::Se3, 36> && has_numbers_of_node<motion::Se2, 17>);
 static_assert(has_numbers_of_node<motion::Translations<3>, 15> && has_numbers_of_node<motion::Translations<1>, 5>);
+/// Numbers of its drift, of its pose, and of its pose, v and dv/dt: those that an array begins with.
+template <class G>
+inline constexpr int numbers_of_drift = G::turns ? G::translations : 0;
+template <class G>
+inline constexpr int numbers_of_pose = numbers_of_node<G> - numbers_of_drift<G> - 3 * G::dof;
+template <class G>
+inline constexpr int numbers_of_rates = numbers_of_pose<G> + 2 * G::dof;
 
 /// Copies the motion of a frame of prescribed motion into all lanes.
 inline void set_all_lanes(CarrierLanes& to, const CarrierMotion& from) {

@@ -50,7 +50,7 @@ void evaluate_law_slope(const E& e, const FieldOn<typename E::Group, double>& fi
   for (int k = 0; k < around.gravity.size(); ++k) around.gravity[k] = T(field.around.gravity[k]);
   around.laws = renumber.laws;
   around.has_inertia = field.around.has_inertia;
-  evaluate_rate(copy, here, around, multipliers, turns, slope);
+  evaluate_rate(copy, here, around, multipliers, turns, nullptr, slope);
 }
 
 }  // namespace bough::elements

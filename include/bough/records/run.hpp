@@ -124,6 +124,9 @@ struct Checks {
   double energy_round_off = 0.0;       ///< energies below this are round-off or what the tolerance leaves open [J]
   double numerical_dissipation = 0.0;  ///< energy taken by the integrator up to the end [J]; 0 where it gave some
   double momentum_balance = 0.0;       ///< largest |momentum - impulse - start| [kg m/s]
+  double momentum_scale = 0.0;         ///< largest momentum and impulse [kg m/s]
+  /// The same about the inertial origin [kg m^2/s]; zero where the moment of gravity is not known.
+  double angular_momentum_balance = 0.0, angular_momentum_scale = 0.0;
   double constraint_violation_position = 0.0;  ///< [m] or [rad]
   double constraint_violation_velocity = 0.0;  ///< [m/s] or [rad/s]
   double linear_backward_error_max = 0.0;

@@ -11,8 +11,10 @@ namespace bough::results {
 struct Supply {
   double work = 0.0;         ///< of loads, drives, efforts and of a ground that moves [J]
   double dissipation = 0.0;  ///< taken by dampers [J]
-  motion::Vec3<double> impulse =
-      motion::Vec3<double>::zero();  ///< of gravity, loads and the ground, inertial axes [N s]
+  /// Of gravity, loads and the ground, in inertial axes, and its moment about the inertial origin without gravity [N s,
+  /// N m s]; `force` and `moment` sum the magnitudes.
+  motion::Vec3<double> impulse = motion::Vec3<double>::zero(), angular_impulse = impulse;
+  double force = 0.0, moment = 0.0;
 };
 
 /// Sums work, dissipation and impulse over the steps. Only elements that do work, dissipate energy or are attached to
@@ -64,7 +66,7 @@ class WorkMeter {
   double mass_ = 0.0;  ///< total mass [kg]
   double evaluation_cost_ = 0.0;
   double dissipation_rate_ = 0.0;
-  motion::Vec3<double> force_ = motion::Vec3<double>::zero();
+  motion::Vec3<double> force_ = motion::Vec3<double>::zero(), moment_ = force_;
   Supply supply_;
 };
 
@@ -74,8 +76,8 @@ class Balance {
   void begin(const Energies& start);
   /// Excludes the change of energy and momentum by a jump of velocities at a breakpoint, which is no error.
   void jump(const Energies& before, const Energies& after);
-  /// Evaluates the defects at a time where results are wanted.
-  void compare(const Energies& now, const Supply& supply);
+  /// Evaluates the defects at a time where results are wanted, of a structure of this mass [kg] and size [m].
+  void compare(const Energies& now, const Supply& supply, double mass, double size);
 
   double energy_error() const { return energy_error_; }  ///< largest |energy - work + dissipation - start| seen [J]
   double energy_scale() const { return energy_scale_; }  ///< largest sum of magnitudes of the terms so far [J]
@@ -84,13 +86,17 @@ class Balance {
   }                                                         ///< largest sum of the magnitudes of the energies so
                                                             ///< far [J]
   double last_energy_error() const { return last_error_; }  ///< signed: negative is energy taken by the integrator [J]
-  double momentum_error() const {
-    return momentum_error_;
-  }  ///< largest |linear momentum - impulse - start| seen [kg m/s]
+  /// Largest |momentum - impulse - start| seen, linear and about the inertial origin, and what they are compared
+  /// with: the largest momentum and impulse, but no less than (2 mass kinetic energy)^1/2 [kg m/s, kg m^2/s].
+  double momentum_error() const { return momentum_error_; }
+  double momentum_scale() const { return momentum_scale_; }
+  double angular_momentum_error() const { return angular_error_; }
+  double angular_momentum_scale() const { return angular_scale_; }
 
  private:
   double start_energy_ = 0.0;  ///< energy at the start, plus the changes by jumps
-  motion::Vec3<double> start_momentum_ = motion::Vec3<double>::zero();
+  motion::Vec6<double> start_momentum_ = motion::Vec6<double>::zero();
+  double momentum_scale_ = 0.0, angular_error_ = 0.0, angular_scale_ = 0.0;
   double energy_error_ = 0.0, energy_scale_ = 0.0, last_error_ = 0.0, momentum_error_ = 0.0, largest_energies_ = 0.0;
 };
 

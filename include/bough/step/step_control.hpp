@@ -91,7 +91,7 @@ class LocalError {
   double velocity_factor() const;
   /// What errors are compared with: size + allowance / tolerance.
   ErrorParts sizes() const;
-  void shift_accelerations(const State& after, State& to) const;
+  void shift_accelerations(const System& system, const State& after, State& to) const;
   void enter_states(System& system, const State& after, std::vector<double>& rhs);
 
   const plan::Plan& plan_;

@@ -9,6 +9,7 @@
 #include "bough/step/element_evaluation.hpp"
 #include "bough/step/instant.hpp"
 #include "bough/step/linear_solution.hpp"
+#include "bough/step/node_drift.hpp"
 #include "bough/step/node_order.hpp"
 #include "bough/step/residual_sums.hpp"
 #include "bough/step/round_off.hpp"
@@ -31,6 +32,8 @@ struct Workspace {
   std::vector<StepEnd> step_ends;  ///< by chunk of eights
   std::vector<Misses> misses;      ///< of accelerations, by node
   std::vector<double> eight_most;  ///< by eight of nodes: the largest of something
+  motion::Groups::OneOf<DriftChoice> drift_choice;
+  motion::Groups::OneOf<DriftedStart> drifted;  ///< of the step that `start` begins
 };
 
 class HeldNodes;
@@ -48,6 +51,7 @@ class System {
   WorkCounts& counts() { return counts_; }
   CpuClock& clock() { return clock_; }
   Workspace& work() { return work_; }
+  const Workspace& work() const { return work_; }
 
   /// Factors and solves with the tangents that `evaluate` leaves.
   LinearSolution& linear() { return linear_; }

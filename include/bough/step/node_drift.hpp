@@ -1,0 +1,33 @@
+#pragma once
+/// Frames relative to which generalized-alpha describes nodes that turn.
+#include <memory>
+#include <vector>
+
+#include "bough/step/node_vectors.hpp"
+
+namespace bough::step {
+
+/// What chooses the frame of each node (src/step/drift.hpp). Made once.
+template <class G>
+struct DriftChoice {
+  using Translation = typename G::template Translation<elements::LanePack>;
+  /// Mass centre of the bodies at the node, in its axes [m]; by NodeOrder::eights(), empty where nothing turns.
+  std::vector<Translation> centers;
+  typename G::template Translation<double> fall;  ///< acceleration of the frames, along the axes of the model [m/s^2]
+  bool falls = false;                             ///< whether that is gravity, or zero
+};
+
+/// The start of a step as seen from these frames.
+template <class G>
+struct DriftedStart {
+  using Vector = typename G::template Vector<elements::LanePack>;
+  using Translation = typename G::template Translation<elements::LanePack>;
+  struct Eight {
+    Vector v, a, algorithmic;
+    Translation way;       ///< of the frame over the step, in the node's axes at the start [m]
+    Translation velocity;  ///< of the frame at the end of the step, along the axes of the model [m/s]
+  };
+  std::vector<Eight> eights;
+};
+
+}  // namespace bough::step
