@@ -10,7 +10,7 @@ namespace bough::app {
 /// Exit statuses of all verbs.
 enum Exit : int {
   exit_done = 0,
-  exit_failed = 1,     ///< a run failed, histories differ
+  exit_failed = 1,     ///< a run failed, or is doubted where that counts (--strict); histories differ
   exit_bad_input = 2,  ///< bad input, bad options, a file that cannot be read
   exit_stopped = 3,    ///< a batch or sweep was stopped; --resume goes on with it
 };
@@ -21,7 +21,7 @@ struct RunArguments {
   std::vector<std::string> overrides;
   double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
   bool quiet = false;
-  bool check_expected = false;
+  bool check_expected = false, strict = false;
 };
 struct ViewArguments {
   std::filesystem::path directory, other, out, svg, png;
@@ -37,7 +37,7 @@ struct CaseArguments {
   double time_limit = 0.0;
   std::vector<std::string> overrides;
   double memory_limit = 0.0;  ///< of all cases at a time [bytes]; 0: what is available
-  bool quiet = false, check_expected = false;
+  bool quiet = false, check_expected = false, strict = false;
   double stop_after = 0.0;  ///< of the whole batch [s]; 0: never
   int retries = 0;          ///< of a case that fails
   bool resume = false;

@@ -244,21 +244,28 @@ int finish_cases(const study::CaseTable& results, const std::vector<study::Measu
   write_batch_page(collection, results, settings.title, sensitivities, false);
   if (!sensitivities.empty()) collection.write("sensitivities.csv", study::sensitivities_csv(sensitivities));
 
-  std::size_t num_failed = 0, num_not_as_expected = 0, num_stopped = 0;
+  std::size_t num_failed = 0, num_not_as_expected = 0, num_stopped = 0, num_doubted = 0;
   for (const study::CaseResult& r : results) {
-    num_failed += r.status != study::CaseStatus::ok && r.status != study::CaseStatus::figures_fail ? 1 : 0;
+    const bool is_done = r.status == study::CaseStatus::ok || r.status == study::CaseStatus::figures_fail;
+    num_failed += is_done ? 0 : 1;
+    num_doubted += is_done && !r.report.doubts.empty() ? 1 : 0;
     num_not_as_expected += r.report.expected_fails > 0 ? 1 : 0;
     num_stopped += r.status == study::CaseStatus::interrupted ? 1 : 0;
   }
   if (!settings.quiet) {
-    std::cout << results.size() << " cases, " << num_failed << " not done, " << num_not_as_expected
-              << " with an expected figure that fails: " << (settings.out / "batch.csv").string() << "\n";
+    std::cout << results.size() << " cases, " << num_failed << " not done, " << num_doubted
+              << " not to be trusted without a closer look, " << num_not_as_expected << " with an expected figure that fails: " << (settings.out / "batch.csv").string() << "\n";
   }
+  if (settings.quiet && num_doubted > 0)
+    std::cerr << "bough: " << num_doubted << " of " << results.size()
+              << " cases are not to be trusted without a closer look: column doubts of "
+              << (settings.out / "batch.csv").string() << "\n";
   if (num_stopped > 0) {
     std::cerr << (collected == nullptr ? "stopped: " : "not whole: ") << num_stopped
               << " cases are left; the same command with --resume goes on\n";
     return exit_stopped;
   }
+  if (settings.strict && num_doubted > 0) return exit_failed;
   return num_failed > 0 || (settings.check_expected && num_not_as_expected > 0) ? exit_failed : exit_done;
 }
 

@@ -57,6 +57,8 @@ int run(const RunArguments& arguments) {
   if (!summary) return exit_failed;
   if (!arguments.quiet)
     std::cout << result_text(*summary, directory.directory().string(), directory.files()) << std::flush;
+  else
+    std::cerr << doubts_text(*summary, "bough: " + file.scene.name + ": ");
   if (summary->status != records::RunStatus::ok)
     std::cerr << "bough: " << file.scene.name << ": " << summary->cause << "\n";
   if (const std::string why = directory.why_beside(); !why.empty())
@@ -64,6 +66,7 @@ int run(const RunArguments& arguments) {
   if (summary->status != records::RunStatus::ok || !directory.why_beside().empty()) return exit_failed;
   const bool all_hold = std::all_of(summary->expected.begin(), summary->expected.end(),
                                     [](const auto& figure) { return figure.holds || !figure.reached; });
+  if (arguments.strict && !summary->doubts.empty()) return exit_failed;
   return arguments.check_expected && !all_hold ? exit_failed : exit_done;
 }
 

@@ -86,8 +86,9 @@ void add_run(CLI::App& app, RunArguments& a, int& code) {
   add_overrides(verb, a.overrides);
   add_memory_limit(verb, a.memory_limit);
   add_without(verb, a.overrides);
-  verb.add_flag("--quiet", a.quiet, "Print problems only");
+  verb.add_flag("--quiet", a.quiet, "Print problems and doubts only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
+  verb.add_flag("--strict", a.strict, "Exit with 1 also where the run is not to be trusted without a closer look");
   verb.callback([&] { code = run(a); });
 }
 
@@ -125,8 +126,9 @@ void add_case_options(CLI::App& verb, CaseArguments& a) {
       ->check(between(0.001, 1e9));
   add_overrides(verb, a.overrides);
   add_memory_limit(verb, a.memory_limit, "all cases at a time");
-  verb.add_flag("--quiet", a.quiet, "Print failed cases only");
+  verb.add_flag("--quiet", a.quiet, "Print failed cases and the number of doubted ones only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
+  verb.add_flag("--strict", a.strict, "Exit with 1 also where a case is not to be trusted without a closer look");
   verb.add_option("--retries", a.retries,
                   "Try a case that fails so many times again, each time with steps half as long")
       ->type_name("N")

@@ -76,19 +76,30 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
+std::string doubts_text(const records::Summary& summary, const std::string& before) {
+  std::string text;
+  for (const records::Doubt& doubt : summary.doubts)
+    text += before + "DOUBT (" + doubt.about + "): " + doubt.text + "\n";
+  return text;
+}
+
 std::string result_text(const records::Summary& summary, const std::string& directory,
                         const std::vector<std::string>& files) {
   const char* words = summary.status == records::RunStatus::ok       ? "done"
                       : summary.status == records::RunStatus::failed ? "FAILED"
                                                                      : "stopped";
-  std::string text = summary.scene + ": " + words + "\n";
+  std::string text = summary.scene + ": " + words;
+  if (!summary.doubts.empty())
+    text += ", not to be trusted without a closer look: " +
+            count_text(static_cast<long>(summary.doubts.size()), "doubt") + " below";
+  text += "\n";
   if (!summary.cause.empty()) text += "  cause: " + summary.cause + "\n";
   text += "  " + count_text(summary.steps.accepted, "step") + " accepted, " + std::to_string(summary.steps.rejected) +
           " rejected, " + count_text(summary.steps.newton_iterations, "Newton iteration") + ", " +
           count_text(summary.steps.factorizations, "factorization") + " in " + rounded_text(summary.times.total, 3) +
           " s with " + count_text(summary.threads, "thread") + "\n";
   text += checks_text(summary);
-  for (const records::Doubt& doubt : summary.doubts) text += "  DOUBT (" + doubt.about + "): " + doubt.text + "\n";
+  text += doubts_text(summary, "  ");
   if (!summary.not_judged.empty()) text += "  not judged: " + summary.not_judged + "\n";
   for (const std::string& note : summary.notes) text += "  note: " + note + "\n";
   if (!summary.expected.empty()) text += expected_text(summary.expected);

@@ -11,6 +11,9 @@ namespace bough::app {
 std::string result_text(const records::Summary& summary, const std::string& directory,
                         const std::vector<std::string>& files);
 
+/// The doubts about a run, one to a line, each after `before`.
+std::string doubts_text(const records::Summary& summary, const std::string& before);
+
 /// Columns padded to equal widths, two spaces apart. Rows may be of different lengths; the last cell of a row may run
 /// on.
 std::string table_text(const std::vector<std::vector<std::string>>& rows);

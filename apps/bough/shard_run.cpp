@@ -138,6 +138,7 @@ std::vector<std::string> words_of(const WholeBatch& batch, const CaseArguments& 
   add("--retries", a.retries);
   for (const std::string& o : a.overrides) words.insert(words.end(), {"--set", o});
   if (a.check_expected) words.emplace_back("--check-expected");
+  if (a.strict) words.emplace_back("--strict");
   words.insert(words.end(), {"--keep", a.keep});
   for (const std::string& name : a.keep_cases) words.insert(words.end(), {"--keep-case", name});
   words.insert(words.end(), {"--resume", "--quiet"});

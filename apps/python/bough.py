@@ -54,6 +54,16 @@ class Run:
     def status(self):
         return self.summary.get("status", "unfinished")
 
+    @property
+    def doubts(self):
+        """Why the run should not be trusted without a closer look: {"about": ..., "text": ...} for each reason."""
+        return self.summary.get("trust", {}).get("doubts", [])
+
+    @property
+    def trusted(self):
+        """Whether the run is complete and nothing in it speaks against its results."""
+        return self.status == "ok" and not self.doubts
+
     def __getitem__(self, column):
         """The column of this name, or all columns of the sensor of this name, one array column each."""
         if column in self._index:

@@ -50,6 +50,8 @@ class Converter : private ValueConverter {
   void node(const Value& v, const std::string& at);
   void body(const Value& v, const std::string& at);
   void beam(const Value& v, const std::string& at);
+  void choose_mesh(const Value& v, scene::Beam& b);
+  void tell_meshes();
   std::vector<std::array<double, 2>> corners(const Value& list) const;
   std::optional<scene::Outline> outline(const Value& v, const std::string& at);
   void body_looks(const Value& v, const std::string& at, scene::Body& body);
@@ -120,6 +122,7 @@ class Converter : private ValueConverter {
   void warn_of_thickness(const JsonValue& shape, const scene::Material& material, const std::string& at);
   void warn_of_body_size(const JsonValue& body, const std::string& at, double density);
   void warn_of_thick_beams();
+  std::vector<std::string> beams_without_mesh;  ///< whose elements the scene does not give
   void warn_of_degrees(const laws::Law& angle, const std::string& at);
   using ValueConverter::warn_of_degrees;
   scene::SolverForm read_form(const Value& solver);

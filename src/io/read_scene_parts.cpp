@@ -265,6 +265,32 @@ void Converter::body(const Value& v, const std::string& at) {
   add(scene.bodies, "bodies", std::move(b), at);
 }
 
+/// A mesh that the scene leaves open: one that resolves the bending of a beam under loads along it, and large rotations.
+void Converter::choose_mesh(const Value& v, scene::Beam& b) {
+  constexpr int nodes = 12, nodes_of_curve = 24;  // beside the first
+  const Value *elements = v.find("elements"), *order = v.find("order");
+  b.order = order != nullptr ? static_cast<int>(order->number) : elements != nullptr ? 1 : 3;
+  if (elements != nullptr) {
+    b.elements = static_cast<int>(elements->number);
+    return;
+  }
+  b.elements = (v.find("curve") != nullptr ? nodes_of_curve : nodes) / b.order;
+  beams_without_mesh.push_back(b.name);
+}
+
+/// Says which meshes were chosen.
+void Converter::tell_meshes() {
+  if (beams_without_mesh.empty()) return;
+  constexpr std::size_t most_named = 4;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(beams_without_mesh.size(), most_named); ++i)
+    names += (i == 0 ? "'" : ", '") + beams_without_mesh[i] + "'";
+  if (beams_without_mesh.size() > most_named)
+    names += " and " + std::to_string(beams_without_mesh.size() - most_named) + " more beams";
+  warnings.push_back({"/beams", "", "the mesh of " + names + " is chosen: twelve nodes beside the first, 24 on a curve",
+                      "give \"elements\" and \"order\"; a run with twice as many elements tells the error of a mesh"});
+}
+
 void Converter::beam(const Value& v, const std::string& at) {
   scene::Beam b;
   b.name = v.find("name")->text;
@@ -282,8 +308,7 @@ void Converter::beam(const Value& v, const std::string& at) {
   b.frame = text_or(v, "frame");
   b.twist = v.find("twist")->number;
   warn_of_degrees(*v.find("twist"), at + "/twist");
-  b.elements = static_cast<int>(v.find("elements")->number);
-  b.order = static_cast<int>(v.find("order")->number);
+  choose_mesh(v, b);
   if (const Value* c = v.find("curve")) {
     b.curve = scene::BeamCurve::curvature;
     b.curvature = vector(*c->find("curvature"));

@@ -315,6 +315,7 @@ void Converter::convert() {
   each("beams", &Converter::beam);
   poses_.emplace(scene);  // no places are added after this
   warn_of_thick_beams();
+  tell_meshes();
   each("joints", &Converter::joint);
   each("springs", &Converter::spring);
   each("actuators", &Converter::actuator);

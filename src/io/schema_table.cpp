@@ -123,8 +123,11 @@ void add_parts(RuleTable& t) {
        may("twist", any_number, "Rotation of the section about axis 1 from start to end of a straight beam [rad].",
            "0"),
        may("curve", named_rule("curve"), "Default: straight."),
-       may("elements", integer_rule("", 1, 1e6), "Number of finite elements.", "1"),
-       may("order", integer_rule("", 1, 3), "Polynomial order of the elements: 1 (two nodes), 2 or 3.", "1")}));
+       may("elements", integer_rule("", 1, 1e6),
+           "Number of finite elements. Default: as many as have twelve nodes beside the first, 24 if the axis is curved, "
+           "which is told."),
+       may("order", integer_rule("", 1, 3),
+           "Polynomial order of the elements: 1 (two nodes), 2 or 3. Default: 3 without `elements`, else 1.")}));
 }
 
 void add_joints(RuleTable& t) {

@@ -42,6 +42,12 @@ class LinearCombination final : public Node {
   void append_breaks(double t_begin, double t_end, int max_order, BreakList& breaks) const override {
     for (const Term& term : terms_) laws::append_breaks(term.law, t_begin, t_end, max_order, breaks);
   }
+  Jet<Interval> range(double t_begin, double t_end) const override {
+    Jet<Interval> sum{};
+    for (const Term& term : terms_)
+      sum = sum + Jet<Interval>{term.factor, Interval(0.0), Interval(0.0)} * range_of(term.law, t_begin, t_end);
+    return sum;
+  }
   Law integral(double t0) const override {
     std::vector<Term> terms;
     for (const Term& term : terms_) terms.push_back({term.factor, term.law.integral(t0)});
@@ -66,6 +72,9 @@ class Product final : public Node {
   void append_breaks(double t_begin, double t_end, int max_order, BreakList& breaks) const override {
     laws::append_breaks(a_, t_begin, t_end, max_order, breaks);
     laws::append_breaks(b_, t_begin, t_end, max_order, breaks);
+  }
+  Jet<Interval> range(double t_begin, double t_end) const override {
+    return range_of(a_, t_begin, t_end) * range_of(b_, t_begin, t_end);
   }
   Law integral(double t0) const override {
     return make_quadrature_integral(Law{std::make_shared<Product>(a_, b_)}, t0);
@@ -92,6 +101,20 @@ class Piecewise final : public Node {
       const double to = i + 1 == segments_.size() ? t_end : std::min(t_end, segments_[i + 1].start);
       if (from <= to) laws::append_breaks(segments_[i].law, from, to, max_order, breaks);
     }
+  }
+
+  Jet<Interval> range(double t_begin, double t_end) const override {
+    const std::size_t first = segment_of(t_begin, Side::left), last = segment_of(t_end, Side::right);
+    const auto of = [&](std::size_t i) {
+      return range_of(segments_[i].law, i == first ? t_begin : std::max(t_begin, segments_[i].start),
+                      i == last ? t_end : std::min(t_end, segments_[i + 1].start));
+    };
+    Jet<Interval> all = of(first);
+    for (std::size_t i = first + 1; i <= last; ++i) {
+      const Jet<Interval> next = of(i);
+      all = {hull(all.value, next.value), hull(all.rate, next.rate), hull(all.acceleration, next.acceleration)};
+    }
+    return all;
   }
 
   /// Integrates from the segment that holds t0 outwards; each segment continues the value of its neighbour at their

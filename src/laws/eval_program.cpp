@@ -310,6 +310,12 @@ Jet<Interval> eval_switch_range(const Program& program, std::size_t index, const
   return switch_argument(instruction.op, stack, height);
 }
 
+Jet<Interval> eval_range(const Program& program, const Interval& t) {
+  Stack<Interval> stack;
+  run(program, 0, program.code.size(), Jet<Interval>{t, Interval(1.0), Interval(0.0)}, stack);
+  return stack[0];
+}
+
 int eval_branch(const Program& program, std::size_t index, double t, Side side) {
   if (side == Side::right) return sign_beside(eval_switch_argument(program, index, t), 1);
   const Instruction& instruction = program.code[index];

@@ -34,6 +34,9 @@ Jet<double> eval_switch_argument(const Program& program, std::size_t index, doub
 /// Ranges of that argument and of its derivatives for all t of the interval.
 Jet<Interval> eval_switch_range(const Program& program, std::size_t index, const Interval& t);
 
+/// Ranges of a formula and of its derivatives for all t of the interval.
+Jet<Interval> eval_range(const Program& program, const Interval& t);
+
 /// Branch of the switch at instruction `index`, seen from one side of t: sign of the argument there, -1, 0 or 1.
 int eval_branch(const Program& program, std::size_t index, double t, Side side);
 

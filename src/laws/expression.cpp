@@ -158,6 +158,10 @@ class Expression final : public Node {
     breaks.work += found.work;
   }
 
+  Jet<Interval> range(double t_begin, double t_end) const override {
+    const TrapsMasked traps_masked;
+    return eval_range(*program_, {t_begin, t_end});
+  }
   Law integral(double t0) const override {
     return make_quadrature_integral(Law{std::make_shared<Expression>(program_)}, t0);
   }

@@ -26,6 +26,10 @@ class Harmonic final : public Node {
     return {wave_.offset + wave, wave_.amplitude * wave_.omega * std::cos(theta), -wave_.omega * wave_.omega * wave};
   }
   void append_breaks(double, double, int, BreakList&) const override {}
+  Jet<Interval> range(double, double) const override {
+    const double a = std::abs(wave_.amplitude), w = std::abs(wave_.omega);
+    return {{wave_.offset - a, wave_.offset + a}, {-a * w, a * w}, {-a * w * w, a * w * w}};
+  }
   Law integral(double t0) const override;
 
  private:
@@ -46,6 +50,10 @@ class HarmonicIntegral final : public Node {
     return {value, wave_.offset + wave_.amplitude * std::sin(theta), wave_.amplitude * wave_.omega * std::cos(theta)};
   }
   void append_breaks(double, double, int, BreakList&) const override {}
+  Jet<Interval> range(double, double) const override {
+    const double a = std::abs(wave_.amplitude), w = std::abs(wave_.omega);
+    return {everything(), {wave_.offset - a, wave_.offset + a}, {-a * w, a * w}};
+  }
 
   /// F = -(amplitude / omega) cos(theta) + (amplitude / omega) cos(theta(t0)) + offset (t - t0), integrated term by
   /// term.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "bough/laws/bounds.hpp"
 #include "bough/laws/law_error.hpp"
 #include "node.hpp"
 
@@ -16,6 +18,12 @@ std::vector<double> Law::breakpoints(double t_begin, double t_end) const {
 
 Breaks Law::breakpoints(double t_begin, double t_end, std::size_t most) const {
   return sorted_breaks(*this, t_begin, t_end, 2, most);
+}
+
+double largest_acceleration(const Law& law, double t_begin, double t_end) {
+  const Interval a = range_of(law, t_begin, t_end).acceleration;
+  const double most = std::max(std::abs(a.lo), std::abs(a.hi));
+  return std::isnan(most) ? std::numeric_limits<double>::infinity() : most;
 }
 
 std::optional<Law> Law::integrand() const { return node_ ? node_->integrand() : std::nullopt; }
@@ -40,6 +48,10 @@ std::optional<std::string> non_finite(const LawValue& law_value) {
 
 void require_finite(double x, const char* what) {
   if (!std::isfinite(x)) throw LawError({}, 0, std::string(what) + " must be a finite number");
+}
+
+Jet<Interval> range_of(const Law& law, double t_begin, double t_end) {
+  return law.node() != nullptr ? law.node()->range(t_begin, t_end) : Jet<Interval>{};
 }
 
 void append_breaks(const Law& law, double t_begin, double t_end, int max_order, BreakList& breaks) {

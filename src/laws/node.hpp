@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bough/laws/law.hpp"
+#include "jet.hpp"
 
 namespace bough::laws {
 
@@ -40,6 +41,9 @@ class Node {
   virtual void append_breaks(double t_begin, double t_end, int max_order, BreakList& breaks) const = 0;
 
   virtual Law integral(double t0) const = 0;
+
+  /// Bounds of value, rate and acceleration over [t_begin, t_end], those of all branches met there.
+  virtual Jet<Interval> range(double t_begin, double t_end) const = 0;
   virtual bool is_constant() const { return false; }
   virtual std::optional<Law> integrand() const { return std::nullopt; }  ///< of an integral by quadrature
 };
@@ -52,6 +56,9 @@ void require_finite(double x, const char* what);
 /// Breaks of a law, sorted and unique.
 Breaks sorted_breaks(const Law& law, double t_begin, double t_end, int max_order,
                      std::size_t most = std::numeric_limits<std::size_t>::max());
+
+/// Node::range of the node behind a law.
+Jet<Interval> range_of(const Law& law, double t_begin, double t_end);
 
 /// Node::append_breaks of the node behind a law.
 void append_breaks(const Law& law, double t_begin, double t_end, int max_order, BreakList& breaks);

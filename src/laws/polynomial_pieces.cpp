@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace bough::laws {
@@ -52,6 +53,27 @@ void PolynomialPieces::append_breaks(double t_begin, double t_end, int max_order
   for (std::size_t k = piece_of(t_begin, Side::left); k < knots_.size() && knots_[k].time <= t_end; ++k) {
     if (knots_[k].order <= max_order) breaks.add(knots_[k].time);
   }
+}
+
+Jet<Interval> PolynomialPieces::range(double t_begin, double t_end) const {
+  std::optional<Jet<Interval>> all;
+  for (std::size_t i = piece_of(t_begin, Side::left); i < pieces_.size(); ++i) {
+    if (i > 0 && knots_[i - 1].time > t_end) break;
+    const Piece& piece = pieces_[i];
+    const double from = i > 0 ? std::max(t_begin, knots_[i - 1].time) : t_begin;
+    const double to = i < knots_.size() ? std::min(t_end, knots_[i].time) : t_end;
+    const Jet<Interval> s{{(from - piece.start) / piece.width, (to - piece.start) / piece.width},
+                          Interval(1.0 / piece.width), Interval(0.0)};
+    Jet<Interval> sum{};
+    for (std::size_t k = piece.coefficients.size(); k-- > 0;)
+      sum = sum * s + Jet<Interval>{piece.coefficients[k], Interval(0.0), Interval(0.0)};
+    if (all)
+      all = Jet<Interval>{hull(all->value, sum.value), hull(all->rate, sum.rate),
+                          hull(all->acceleration, sum.acceleration)};
+    else
+      all = sum;
+  }
+  return *all;
 }
 
 Law PolynomialPieces::integral(double t0) const {

@@ -27,6 +27,7 @@ class PolynomialPieces final : public Node {
   LawValue at(double t, Side side) const override;
   void append_breaks(double t_begin, double t_end, int max_order, BreakList& breaks) const override;
   Law integral(double t0) const override;
+  Jet<Interval> range(double t_begin, double t_end) const override;
   bool is_constant() const override;
 
  private:

@@ -140,6 +140,10 @@ class QuadratureIntegral final : public Node {
   void append_breaks(double t_begin, double t_end, int max_order, BreakList& breaks) const override {
     laws::append_breaks(integrand_, t_begin, t_end, max_order - 1, breaks);
   }
+  Jet<Interval> range(double t_begin, double t_end) const override {
+    const Jet<Interval> f = range_of(integrand_, t_begin, t_end);
+    return {everything(), f.value, f.rate};
+  }
   Law integral(double t0) const override {
     return make_quadrature_integral(Law{std::make_shared<QuadratureIntegral>(integrand_, t0_)}, t0);
   }

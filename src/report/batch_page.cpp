@@ -22,12 +22,18 @@ using study::CaseResult;
 using study::CaseStatus;
 using study::CaseTable;
 
+/// Whether a case went well but for the doubts of its run.
+bool is_good_but_doubted(const CaseTable& results, std::uint32_t i) {
+  return is_good(results.status(i)) && !results.at(i).report.doubts.empty();
+}
+
 Table status_table(const CaseTable& results, const std::vector<std::uint32_t>& ended) {
-  std::map<CaseStatus, std::size_t> counts;
-  for (const std::uint32_t i : ended) ++counts[results.status(i)];
+  std::map<std::pair<CaseStatus, bool>, std::size_t> counts;
+  for (const std::uint32_t i : ended) ++counts[{results.status(i), is_good_but_doubted(results, i)}];
   Table table{{"status", "cases"}, {}};
-  for (const auto& [status, count] : counts)
-    table.rows.push_back({{std::string(study::text_of(status)), is_good(status) ? Tone::good : Tone::bad},
+  for (const auto& [kind, count] : counts)
+    table.rows.push_back({{std::string(study::text_of(kind.first)) + (kind.second ? ", not to be trusted as it is" : ""),
+                           is_good(kind.first) && !kind.second ? Tone::good : Tone::bad},
                           number_cell(static_cast<double>(count), 9)});
   return table;
 }
@@ -247,7 +253,11 @@ std::string batch_page(const CaseTable& results, const std::string& title,
   const std::vector<std::uint32_t> ended = ended_cases(results, goes_on);
   const auto good = static_cast<std::size_t>(
       std::count_if(ended.begin(), ended.end(), [&](std::uint32_t i) { return is_good(results.status(i)); }));
-  std::string lead = std::to_string(ended.size()) + " cases, " + std::to_string(good) + " ok.";
+  const auto doubted = std::count_if(ended.begin(), ended.end(),
+                                     [&](std::uint32_t i) { return is_good_but_doubted(results, i); });
+  std::string lead = std::to_string(ended.size()) + " cases, " + std::to_string(good) + " ok";
+  if (doubted > 0) lead += ", " + std::to_string(doubted) + " of them not to be trusted without a closer look";
+  lead += ".";
   if (goes_on)
     lead += " The batch goes on: " + std::to_string(results.size() - ended.size()) + " of " +
             std::to_string(results.size()) + " are left.";

@@ -26,6 +26,11 @@ void add_heading(Document& page, const RunFiles& run) {
   const std::string words = s.status == "ok"       ? "The run is complete."
                             : s.status == "failed" ? "The run failed."
                                                    : "The run was interrupted.";
+  if (!s.doubts.empty()) {
+    std::string doubts = "Not to be trusted without a closer look. " + s.doubts[0].about + ": " + s.doubts[0].text + ".";
+    if (s.doubts.size() > 1) doubts += " All " + std::to_string(s.doubts.size()) + " doubts stand below.";
+    page.paragraph(doubts, Tone::bad);
+  }
   page.paragraph(words + (s.cause.empty() ? "" : " " + s.cause), s.status == "ok" ? Tone::plain : Tone::bad);
   page.paragraph(s.scene + " · " + std::to_string(s.accepted) + " steps, " + std::to_string(s.rejected) +
                      " rejected, " + std::to_string(s.newton_iterations) + " Newton iterations · bough " + s.version,

@@ -1,5 +1,6 @@
 #pragma once
 /// The account of a run: its summary, updated with every step.
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -44,8 +45,11 @@ class Account {
   /// Notes at the end of a run: on constraint rows that depend on others; then on steps and factors.
   void note_dependent_rows();
   void note_steps();
-  /// Largest unbalanced force of steps accepted at the round-off floor, relative to the largest force of the run.
-  double unbalanced_at_floor() const { return largest_force_ > 0.0 ? unbalanced_force_ / largest_force_ : 0.0; }
+  /// Largest unbalanced force of steps accepted at the round-off floor, relative to the largest force of the run, which
+  /// is at least `least_force` [N].
+  double unbalanced_at_floor(double least_force) const {
+    return largest_force_ > 0.0 ? unbalanced_force_ / std::max(largest_force_, least_force) : 0.0;
+  }
 
  private:
   void watch_floor(const step::StepReport& report);

@@ -42,6 +42,10 @@ class Analysis {
   /// Contributions of the analysis at the end of a run: notes, figures of the summary, and doubts in addition to those
   /// that follow from the summary.
   virtual void add_notes() {}
+  /// Decides which estimates of errors hold, before they are taken.
+  virtual void end_errors() {}
+  /// TrustContext::errors_grow_in.
+  virtual double errors_grow_in() const { return 0.0; }
   virtual void sum_up() {}
   virtual void add_doubts() {}
   /// What of its errors nothing in the run has judged, in words; empty: nothing.

@@ -78,7 +78,8 @@ bool ControlledSteps::step_within_stretch() {
     }
     rejections_ = 0;
     last_step_ = size_;
-    watch_accepted();
+    laws_.pass(state_.time - size_, state_.time);
+    if (!watch_accepted()) return false;
     count(report);
     if (!plan_.joints.empty()) step::accept_turns(system_, state_);
     if (!watch_reactions()) return false;
@@ -120,7 +121,7 @@ bool ControlledSteps::reject(const step::StepReport& report, double ratio) {
 }
 
 /// Records the local errors of an accepted step, and which error limited its size.
-void ControlledSteps::watch_accepted() {
+bool ControlledSteps::watch_accepted() {
   add_error(size_, size_);
   if (wanted_size_ >= largest_)
     limit_watch_.count_largest();
@@ -130,7 +131,9 @@ void ControlledSteps::watch_accepted() {
   if (++since_look_ == steps_a_look) watch_errors(local_error_->relative_motion());
   if (since_look_ == steps_a_look - 1) see_before_look();
   since_look_ %= steps_a_look;
+  const bool is_carried = carry_error(&*local_error_);
   local_error_->accept(state_);
+  return is_carried;
 }
 
 /// Changes the step size if it has to shrink, or if a larger one reduces the number of steps to the next stop.

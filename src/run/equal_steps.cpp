@@ -61,11 +61,13 @@ bool EqualSteps::cut(const step::StepReport& report, double size) {
 bool EqualSteps::accept(const step::StepReport& report, double size, bool is_last) {
   ++done_;
   last_step_ = size;
+  laws_.pass(state_.time - size, state_.time);
   if (options_.single_solution && summary().steps.accepted == 1)
     note("one linear solution per step: residuals are not driven to the tolerance");
   if (!plan_.joints.empty()) step::accept_turns(system_, state_);
   if (!watch_reactions()) return false;
   if (watches_error() && !look_at_error()) return false;
+  if (!carry_error(nullptr)) return false;
   recording_.conservation().add_step(state_, size);
   const bool goes_on = !is_variational() || watch_vibrations();
   record(report.iterations, is_last || !goes_on);

@@ -85,6 +85,16 @@ void ErrorWatch::look(const std::vector<double>& before, const std::vector<doubl
   passed_ = 0.0;
 }
 
+void ErrorWatch::carry(const std::vector<double>& now, const std::vector<double>& displaced, double share) {
+  has_carried_ = true;
+  for (Column& c : columns_) {
+    const double d = share > 0.0 ? std::abs(displaced[c.index] - now[c.index]) : 0.0;
+    if (share < 0.0) c.carried = std::numeric_limits<double>::infinity();
+    if (c.jumps && d > flip) continue;
+    if (d > 0.0) c.carried = std::max(c.carried, d / share);
+  }
+}
+
 void ErrorWatch::see_energies(double time, double kinetic, double other, double taken, double largest) {
   if (has_energies_) {
     const double duration = time - last_time_;
@@ -120,7 +130,10 @@ std::vector<records::SensorError> ErrorWatch::errors(const records::HistoryHeade
     const double local = growth * (c.sum + c.share * passed_);
     const double of_shift = c.squares > 0.0 ? std::sqrt(c.squared_rates / c.squares) : 0.0;
     const double of_energy = slowed * std::sqrt(c.squared_rates / looks);
-    found.push_back({header.columns[c.index], c.is_rate ? local * of_shift : local, of_energy, ranges[c.group]});
+    double of_steps = c.is_rate ? local * of_shift : local;
+    if (getenv("BOUGH_SHOW")) fprintf(stderr, "%s sum %g carried %g energy %g range %g\n", header.columns[c.index].c_str(), of_steps/ranges[c.group], c.carried/ranges[c.group], of_energy/ranges[c.group], ranges[c.group]);
+    if (takes_carried_ && has_carried_) of_steps = c.carried;
+    found.push_back({header.columns[c.index], of_steps, of_energy, ranges[c.group]});
   }
   return found;
 }

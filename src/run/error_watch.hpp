@@ -42,6 +42,14 @@ class ErrorWatch {
   /// its end, and at its end displaced by the local error.
   void look(const std::vector<double>& before, const std::vector<double>& now, const std::vector<double>& displaced,
             double norm, double h);
+  /// Adds what the error carried to a state makes of the columns: values there, and at the state displaced by `share` of
+  /// the error. share: 0 if there is no error, below 0 if it is not finite.
+  void carry(const std::vector<double>& now, const std::vector<double>& displaced, double share);
+  /// Share of the size of the structure, or rad, of displacements by which an error is looked at: so small that sensors
+  /// are linear in it.
+  static constexpr double small = 1e-6;
+  /// To be called if the errors carried along hold: they take the place of the sums.
+  void take_carried() { takes_carried_ = true; }
   /// Adds the energies of a row [J]: kinetic energy, all other energy, energy dissipated by the integrator so far, and
   /// the largest energy so far.
   void see_energies(double time, double kinetic, double other, double taken, double largest);
@@ -56,6 +64,7 @@ class ErrorWatch {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;  ///< range of values
     double share = 0.0;                                                          ///< |d| / norm at the last measurement
     double sum = 0.0;                                                            ///< A so far
+    double carried = 0.0;        ///< largest error carried so far
     double squares = 0.0;        ///< sum of squared values at measurements
     double squared_rates = 0.0;  ///< sum of squared ds/dt at measurements
   };
@@ -64,7 +73,7 @@ class ErrorWatch {
   std::vector<Column> columns_;
   std::vector<double> least_range_;  ///< by group of columns that share a unit and a sensor
   double passed_ = 0.0;              ///< sum of norms since the last measurement
-  bool has_looked_ = false;
+  bool has_looked_ = false, has_carried_ = false, takes_carried_ = false;
   long rated_ = 0;          ///< number of measurements with rates
   bool is_driven_ = false;  ///< drives or frames prescribe a motion, which energy does not slow down
   bool has_energies_ = false;

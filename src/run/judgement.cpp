@@ -15,6 +15,10 @@ using records::Summary;
 
 namespace {
 
+/// Forces are compared at the least with this part of the largest energy over the size of the structure. Those of a
+/// balanced rotor are all zero but for round-off, which is no reason to doubt them.
+constexpr double part_of_energy = 1e-3;
+
 void sum_up_work(const EndedRun& run, Summary& summary) {
   const step::WorkCounts& work = run.system.counts();
   summary.final_values = run.recording.last_values();
@@ -60,10 +64,11 @@ void judge(const EndedRun& run) {
   Summary& summary = recording.summary();
   const plan::Plan& plan = run.system.plan();
   sum_up_work(run, summary);
-  summary.checks.unbalanced_at_floor = account.unbalanced_at_floor();
   recording.conservation().sum_up(summary.checks, run.options, run.scene.analysis.end_time);
+  const double least_force = plan.is_dynamic ? part_of_energy * summary.checks.energy_scale / plan.length_scale : 0.0;
+  summary.checks.unbalanced_at_floor = account.unbalanced_at_floor(least_force);
+  run.analysis.end_errors();
   if (const ErrorWatch* watch = recording.error_watch()) summary.sensor_errors = watch->errors(summary.header);
-  summary.not_judged = run.analysis.not_judged();
   account.note_dependent_rows();
   run.analysis.add_notes();
   account.note_steps();
@@ -80,9 +85,11 @@ void judge(const EndedRun& run) {
     if (run.analysis.ends_in_correction()) estimate_solution_error(run.system, run.state, summary);
   }
   run.analysis.sum_up();
-  summary.doubts = doubts_of(summary, plan.is_dynamic);
+  summary.not_judged = run.analysis.not_judged();
+  summary.doubts = doubts_of(summary, plan.is_dynamic, {}, {least_force, run.analysis.errors_grow_in()});
   if (const std::string passed = recording.springs().text(); !passed.empty())
     summary.doubts.push_back({"springs", passed});
+  if (const std::string far = recording.far_forces().text(); !far.empty()) summary.doubts.push_back({"round-off", far});
   run.analysis.add_doubts();
 }
 

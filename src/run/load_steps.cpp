@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "bough/io/number_text.hpp"
+#include "branch_check.hpp"
+
 namespace bough::run {
 
 LoadSteps::LoadSteps(const Parts& parts) : Statics(parts), num_steps_(std::max(1, parts.scene.analysis.load_steps)) {
@@ -20,6 +23,18 @@ bool LoadSteps::begin() {
   return true;
 }
 
+void LoadSteps::add_doubts() {
+  Statics::add_doubts();
+  if (jumps_.empty()) return;
+  const std::string text = jumps_ + " the structure jumped to another branch of equilibria: smaller load steps do not "
+                                    "make the motion between them smaller";
+  if (scene_.analysis.unstable)
+    note(text);
+  else
+    summary().doubts.push_back(
+        {"stability", text + "; \"arc_length\" in /analysis follows the path, dynamics tell where it really leads"});
+}
+
 bool LoadSteps::take_step() {
   const double stop = stops_[next_stop_];
   const bool is_whole = stops_.size() == 1, is_last = step_ + 1 == num_steps_ && next_stop_ + 1 == stops_.size();
@@ -30,6 +45,7 @@ bool LoadSteps::take_step() {
         is_end ? 1.0 : from_ + width * static_cast<double>(part_ + 1) / static_cast<double>(1L << level_);
     if (!may_try(target)) return false;
     const double before = state_.time;
+    before_ = state_;
     const step::StepReport report = step::equilibrate(system_, state_, options_, target);
     count(report);
     if (!report.converged) {
@@ -39,6 +55,9 @@ bool LoadSteps::take_step() {
       continue;
     }
     stability_.look(state_);
+    if (may_have_jumped(report) && has_jumped(system_, options_, before_, state_, account().newton_iterations()))
+      jumps_ += (jumps_.empty() ? "from load factor " : ", and from ") + io::rounded_text(before, 6) + " to " +
+                io::rounded_text(target, 6);
     last_step_ = target - before;
     if (!plan_.joints.empty()) step::accept_turns(system_, state_);
     ++part_;

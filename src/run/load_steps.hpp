@@ -16,6 +16,7 @@ class LoadSteps final : public Statics {
   bool begin() override;
   bool take_step() override;
   bool is_done() const override { return step_ == num_steps_; }
+  void add_doubts() override;
 
  private:
   void begin_load_step();
@@ -26,6 +27,8 @@ class LoadSteps final : public Statics {
   double from_ = 0.0;  ///< load factor at the start of the present part
   int level_ = 0;      ///< the part is cut into 2^level steps
   long part_ = 0;      ///< number of these steps done
+  step::State before_;        ///< start of the present step
+  std::string jumps_;         ///< load factors between which the structure jumped to another branch
 };
 
 }  // namespace bough::run

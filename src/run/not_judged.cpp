@@ -30,6 +30,13 @@ std::string names_of(const std::vector<std::string>& sensors) {
 
 }  // namespace
 
+std::string one_line(std::initializer_list<std::string> parts) {
+  std::string text;
+  for (const std::string& part : parts)
+    if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
+  return text;
+}
+
 std::string error_not_judged(const plan::Plan& plan, const step::StepOptions& options, bool checks,
                              const std::vector<records::SensorError>& errors) {
   const std::string why = why_none(options, checks);

@@ -1,4 +1,5 @@
 #pragma once
+#include <initializer_list>
 #include <string>
 
 #include "bough/plan/plan.hpp"
@@ -12,5 +13,11 @@ namespace bough::run {
 /// existing estimates.
 std::string error_not_judged(const plan::Plan& plan, const step::StepOptions& options, bool checks,
                              const std::vector<records::SensorError>& errors);
+
+/// The mesh, as a part of what is not judged.
+inline constexpr const char* the_mesh = "the mesh is not examined, a run with twice as many elements tells";
+
+/// Those that are not empty, in one line.
+std::string one_line(std::initializer_list<std::string> parts);
 
 }  // namespace bough::run

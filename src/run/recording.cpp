@@ -62,7 +62,8 @@ Recording::Recording(const scene::Scene& scene, const SimulateOptions& options, 
       asked_(std::make_shared<const std::vector<scene::Expected>>(figures_asked_for(scene))),
       figures_(scene, *asked_, system.plan(), plan::make_header(system.plan()), options.stops, options.sample),
       measures_(scene, plan::make_header(system.plan())),
-      springs_(system.plan()) {
+      springs_(system.plan()),
+      far_(system.plan()) {
   const plan::Plan& plan = system.plan();
   records::Summary& s = summary();
   s.status = RunStatus::failed;
@@ -92,6 +93,7 @@ void Recording::record(const step::State& state, double step_size, int iteration
   if ((due || !measures_.empty()) && !system_.plan().sensors.empty()) {
     (void)eval_sensors(state);
     if (due && error_watch_) error_watch_->see(values_);
+    if (due) far_.see(values_);
     if (!measures_.empty()) measures_.add(state.time, values_);
   }
   if (due) springs_.look(system_, state);

@@ -11,6 +11,7 @@
 #include "conservation.hpp"
 #include "error_watch.hpp"
 #include "expected_figures.hpp"
+#include "far_watch.hpp"
 #include "finite_gate.hpp"
 #include "pictures.hpp"
 
@@ -47,6 +48,7 @@ class Recording {
   void take_figures();
   const std::vector<double>& last_values() const { return row_.values; }
   const results::SpringWatch& springs() const { return springs_; }
+  const FarWatch& far_forces() const { return far_; }
 
  private:
   bool is_due(long row, bool is_last) const;
@@ -64,6 +66,7 @@ class Recording {
   ExpectedFigures figures_;
   Measures measures_;
   results::SpringWatch springs_;
+  FarWatch far_;
   std::optional<results::MotionSensors> motion_sensors_;  ///< where all sensors show motion, of a reduced model
   std::optional<ErrorWatch> error_watch_;
   std::vector<double> values_;

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "bough/io/number_text.hpp"
-#include "bough/schedule/serial.hpp"
 
 namespace bough::run {
 
@@ -44,30 +43,26 @@ void StabilityWatch::look_at_end(const step::State& state) {
   if (seen_.is_declared) return;
   if (seen_.is_known && seen_.unstable_directions > 0)
     if (const auto mode = stability_.find_mode(state)) seen_.mode = describe(system_.plan(), *mode);
-  const plan::Motions motions = system_.plan().unknowns.motions;
-  if (motions == plan::Motions::planar || motions == plan::Motions::line) look_at_hidden(state);
+  if (HiddenMotions::are_in(system_.plan())) {
+    hidden_look_ = HiddenMotions(scene_).look(system_.plan(), state, seen_.unstable_directions);
+    if (!hidden_look_.mode.empty()) {
+      seen_.hidden = HiddenMotions::where(system_.plan());
+      seen_.hidden_mode = hidden_look_.mode;
+    }
+  }
+  if (seen_.not_conservative.empty()) return;
+  flutter_ = look_for_flutter(scene_, system_.plan(), state);
+  seen_.is_known = seen_.unstable_directions > 0 || (flutter_.is_known && flutter_.text.empty());
 }
 
-/// Examines motions that the plan has left out: lateral ones of a line, those out of a plane.
-void StabilityWatch::look_at_hidden(const step::State& state) {
-  scene::Scene whole = scene_;
-  whole.without.insert(whole.without.end(), {"planar", "line"});
-  const plan::Plan plan = plan::make_plan(whole);
-  const bool is_alike = plan.nodes.size() == state.num_nodes() && plan.joints.size() == state.turns.size() &&
-                        static_cast<std::size_t>(plan.num_multipliers) == state.multipliers.size();
-  if (!is_alike) return;  // the plan with all motions has other rigid parts
-  step::System system(plan, whole.solver, schedule::make_serial_walker());
-  step::State at_rest = step::make_spatial(system_.plan(), state);
-  at_rest.unsettled.clear();
-  if (system.set_time(state.time) || system.evaluate(at_rest, {}, true)) return;
-  step::Stability stability(system);
-  const bool is_singular = system.linear().factor(true, {}).has_value();
-  const step::StabilityLook look = is_singular ? stability.look_closely() : stability.look();
-  if (!look.is_known || look.unstable <= seen_.unstable_directions) return;
-  const auto mode = stability.find_mode(at_rest);
-  if (!mode) return;
-  seen_.hidden = system_.plan().unknowns.motions == plan::Motions::line ? "sideways" : "out of its plane";
-  seen_.hidden_mode = describe(plan, *mode);
+std::string StabilityWatch::not_examined() const {
+  if (seen_.is_declared) return {};
+  if (!seen_.not_conservative.empty() && seen_.unstable_directions == 0 && !flutter_.is_known)
+    return "stability is not examined (" + seen_.not_conservative + "; " + flutter_.why_not + ")";
+  if (HiddenMotions::are_in(system_.plan()) && !hidden_look_.is_known)
+    return "stability " + HiddenMotions::where(system_.plan()) + " is not examined";
+  return seen_.is_known ? "" : "stability is not examined";
 }
+
 
 }  // namespace bough::run

@@ -9,6 +9,8 @@ namespace bough::run {
 class Statics : public Analysis {
  public:
   void sum_up() override;
+  void add_doubts() override;
+  std::string not_judged() const override;
 
  protected:
   explicit Statics(const Parts& parts) : Analysis(parts), stability_(parts.scene, parts.system) {}

@@ -1,6 +1,7 @@
 #include "time_steps.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "bough/io/number_text.hpp"
@@ -25,8 +26,10 @@ bool shows_reactions(const plan::Plan& plan) {
 
 TimeSteps::TimeSteps(const Parts& parts)
     : Analysis(parts),
+      laws_(parts.plan),
       integrator_(step::make_integrator(parts.system, parts.scene.solver, parts.options)),
-      breaks_(parts.plan, parts.scene.analysis) {
+      breaks_(parts.plan, parts.scene.analysis),
+      hidden_(parts.scene) {
   const bool checks = scene_.output.checks;
   if (options_.integrator != scene::Integrator::generalized_alpha) return;
   if (options_.step_control || checks) local_error_.emplace(system_, options_, scene_.analysis.end_time);
@@ -35,6 +38,9 @@ TimeSteps::TimeSteps(const Parts& parts)
   seen_.emplace(plan_).see(plan_, state_);  // a step does not allocate
   for (auto* values : {&values_before_, &values_now_, &values_displaced_})
     values->reserve(summary().header.columns.size());
+  const double duration = scene_.analysis.end_time;
+  if (local_error_ && !options_.single_solution && CarriedError::pays(system_, duration / scene_.analysis.step_size))
+    carried_.emplace(system_, scene_.solver, options_, duration, state_);
 }
 
 bool TimeSteps::begin() {
@@ -56,8 +62,14 @@ bool TimeSteps::begin_in_equilibrium() {
   return true;
 }
 
-/// A structure that was placed exactly in an unstable equilibrium stays there; nothing else in the run would tell.
+/// A structure that was placed exactly in an unstable equilibrium stays there; nothing else in the run would tell. A
+/// note is enough in motions that the run has: what disturbs it there shows. What is left out is never disturbed.
 void TimeSteps::note_unstable_start() {
+  if (HiddenMotions::are_in(plan_)) {
+    const HiddenMotions::Look look = hidden_.look(plan_, state_, std::nullopt);
+    starts_unstable_ = !look.mode.empty();
+    hidden_mode_ = look.mode;
+  }
   if (system_.evaluate(state_, {}, true)) return;
   step::Stability stability(system_);
   const step::StabilityLook look = stability.look_closely();
@@ -91,6 +103,7 @@ bool TimeSteps::take_step() {
     return false;
   }
   const bool goes_on = step_within_stretch();
+  if (goes_on && HiddenMotions::are_in(plan_)) look_at_hidden();
   if (!goes_on || is_stretch_done()) recording_.end_stretch(state_);
   return goes_on;
 }
@@ -124,6 +137,7 @@ bool TimeSteps::start_integrator(double step_size) {
     conservation.jump(before, state_);
     recording_.add_figures(state_);
   }
+  if (carried_) carried_->restart(state_.time);
   const step::StartReport started = integrator_->start(state_, options_, step_size);
   return started.ok || fail(started.cause);
 }
@@ -162,6 +176,24 @@ void TimeSteps::note_moved_start(const step::StartReport& consistent) {
     where = ": '" + plan_.joints[static_cast<std::size_t>(consistent.open_joint)].name + gap;
   }
   note(text + where);
+}
+
+/// Loads may make what the plan has left out unstable, as a beam that buckles sideways: the run would stay in its plane.
+/// Looks at the ends of equal parts of the run.
+void TimeSteps::look_at_hidden() {
+  constexpr double steps_a_look = 100.0, most_looks = 8.0;
+  const double end = scene_.analysis.end_time;
+  const double looks = std::clamp(std::floor(end / scene_.analysis.step_size / steps_a_look), 1.0, most_looks);
+  if (state_.time < end * (static_cast<double>(hidden_looks_) + 1.0) / looks * (1.0 - 1e-9)) return;
+  hidden_looks_ = static_cast<int>(state_.time / end * looks * (1.0 + 1e-9));
+  const HiddenMotions::Look look = hidden_.look(plan_, state_, std::nullopt);
+  if (!look.is_known) return;
+  ++hidden_known_;
+  was_unstable_ = ends_unstable_;
+  ends_unstable_ = !look.mode.empty();
+  if (!ends_unstable_) return;
+  ++hidden_unstable_;
+  hidden_mode_ = look.mode;
 }
 
 bool TimeSteps::watch_reactions() {
@@ -207,17 +239,58 @@ void TimeSteps::watch_errors(double norm) {
   recording_.error_watch()->look(values_before_, values_now_, values_displaced_, norm, last_step_);
 }
 
+bool TimeSteps::carry_error(const step::LocalError* local) {
+  if (!carried_) return true;
+  const double left = (scene_.analysis.end_time - state_.time) / last_step_;
+  bool is_carried = false;
+  const auto t = local != nullptr ? carried_->pass(state_, *local, left, is_carried)
+                                  : carried_->pass(state_, left, is_carried);
+  if (t) return fail(t->text);
+  if (!is_carried) return true;
+  const double size = carried_->transport().size();
+  if (!std::isfinite(size)) {
+    recording_.error_watch()->carry(values_now_, values_displaced_, -1.0);
+    return true;
+  }
+  const double share = size > 0.0 ? ErrorWatch::small / size : 0.0;
+  seen_->see(plan_, state_);
+  seen_->eval(system_, values_now_);
+  for (const int node : seen_->nodes())
+    carried_->transport().displace(share, static_cast<std::size_t>(node), seen_->motion(node));
+  seen_->eval(system_, values_displaced_);
+  recording_.error_watch()->carry(values_now_, values_displaced_, share);
+  return true;
+}
+
+void TimeSteps::end_errors() {
+  if (!carried_) return;
+  if (getenv("BOUGH_SHOW")) fprintf(stderr, "resolved %d grows in %g size %g steps %ld\n", carried_->is_resolved(), carried_->grows_in(), carried_->transport().size(), carried_->num_steps());
+  if (carried_->is_resolved()) recording_.error_watch()->take_carried();
+}
+
 void TimeSteps::sum_up() {
   if (reactions_) summary().unsure_reactions = reactions_->found();
 }
 
 void TimeSteps::add_doubts() {
+  // A moment of it is not enough: vibrations may pass through states that would be unstable if they lasted.
+  const bool lasts = hidden_unstable_ > 0 && (2 * hidden_unstable_ >= hidden_known_ || (ends_unstable_ && was_unstable_));
+  if (lasts || starts_unstable_)
+    summary().doubts.push_back(
+        {"stability", std::string(starts_unstable_ ? "the equilibrium in which the run starts" : "the motion") +
+                          " is unstable " + HiddenMotions::where(plan_) +
+                          ", which the plan leaves out of the motions: " + hidden_mode_ +
+                          "; give it a small imperfection or a small load in that direction to see where it goes"});
+  if (const std::string unseen = laws_.text(); !unseen.empty()) summary().doubts.push_back({"error", unseen});
   if (!reactions_) return;
   if (const std::string wrong = reactions_->misplaced(); !wrong.empty()) summary().doubts.push_back({"error", wrong});
 }
 
 std::string TimeSteps::not_judged() const {
-  return error_not_judged(plan_, options_, scene_.output.checks, summary().sensor_errors);
+  const bool is_hidden = HiddenMotions::are_in(plan_) && hidden_known_ == 0;
+  return one_line({error_not_judged(plan_, options_, scene_.output.checks, summary().sensor_errors),
+                   plan_.beams.empty() ? "" : the_mesh,
+                   is_hidden ? "stability " + HiddenMotions::where(plan_) + " is not examined" : ""});
 }
 
 }  // namespace bough::run

@@ -9,8 +9,11 @@
 #include "bough/step/integrator.hpp"
 #include "bough/step/step_control.hpp"
 #include "break_walk.hpp"
+#include "carried_error.hpp"
 #include "energy_error.hpp"
+#include "law_watch.hpp"
 #include "limit_watch.hpp"
+#include "other_motions.hpp"
 #include "reaction_watch.hpp"
 #include "vibration_watch.hpp"
 
@@ -22,6 +25,8 @@ class TimeSteps : public Analysis {
   bool begin() override;
   bool take_step() override;
   void jump() override { has_jump_ = is_begun_; }
+  void end_errors() override;
+  double errors_grow_in() const override { return carried_ ? carried_->grows_in() : 0.0; }
   bool is_done() const override { return is_begun_ && is_stretch_done() && !(end_ < scene_.analysis.end_time); }
   void sum_up() override;
   void add_doubts() override;
@@ -55,16 +60,21 @@ class TimeSteps : public Analysis {
   /// its end, with and without the local error. norm: the one passed to ErrorWatch::pass for this step.
   void see_before_look();
   void watch_errors(double norm);
+  /// Carries the error of the motion on by the step just taken. local: its local error, if it was measured.
+  bool carry_error(const step::LocalError* local);
 
   double begin_ = 0.0, end_ = 0.0;               ///< times of the present stretch [s]
   std::optional<step::LocalError> local_error_;  ///< of generalized-alpha, if checks or step control need it
+  std::optional<CarriedError> carried_;          ///< if checks are made and it can be paid
   std::optional<results::MotionSensors> seen_;   ///< if errors of sensors of motion are estimated
+  LawWatch laws_;
   VibrationWatch vibrations_;
   Cloned<step::Integrator> integrator_;
 
  private:
   bool begin_in_equilibrium();
   void note_unstable_start();
+  void look_at_hidden();
   bool begin_next_stretch();
   /// Begins the rest of the present stretch anew.
   bool begin_rest_of_stretch();
@@ -73,6 +83,10 @@ class TimeSteps : public Analysis {
   void note_moved_start(const step::StartReport& consistent);
 
   BreakWalk breaks_;
+  HiddenMotions hidden_;  ///< stability in motions that the plan leaves out, looked at from time to time
+  int hidden_looks_ = 0, hidden_known_ = 0, hidden_unstable_ = 0;  ///< looks; those that told; of these unstable ones
+  bool starts_unstable_ = false, was_unstable_ = false, ends_unstable_ = false;  ///< start; last look but one; last
+  std::string hidden_mode_;
   bool is_begun_ = false;
   bool has_jump_ = false;                   ///< an input was changed at the present time
   step::State tried_;                       ///< start of the first attempt of a failed step
@@ -126,7 +140,7 @@ class ControlledSteps final : public TimeSteps {
   void change_size(double wanted);
   bool measure();
   bool reject(const step::StepReport& report, double ratio);
-  void watch_accepted();
+  bool watch_accepted();
   void choose_next_size(double ratio);
 
   double largest_;  ///< largest step size allowed [s]

@@ -36,6 +36,12 @@ void doubt_energy(const records::Summary& s, const TrustLimits& limits, std::vec
                        number(100.0 * c.numerical_dissipation / c.energy_scale) +
                        " % of the largest energy: what moves fast relative to the step is damped away; take "
                        "smaller steps or a spectral radius nearer to 1"});
+  const bool is_told = !doubts.empty() && doubts.back().about == "energy";
+  if (!is_told && passes(c.energy_balance, bound(limits.energy_balance)))
+    doubts.push_back({"energy", "the energy balance is open by " + number(c.energy_balance) + " J on the way, " +
+                                    number(100.0 * c.energy_balance / c.energy_scale) +
+                                    " % of the largest energy: the integrator adds and takes energy, or one is not "
+                                    "counted; smaller steps tell which"});
 }
 
 /// Impulses are sums of forces at the ends of steps, so that both balances are as accurate as the motion.
@@ -60,7 +66,19 @@ std::string remedy(const records::Summary& s, double excess) {
   return "steps of " + number(s.step_size / std::sqrt(excess)) + " s";
 }
 
-void doubt_errors(const records::Summary& s, const TrustLimits& limits, std::vector<records::Doubt>& doubts) {
+/// What can be done about an error that is `excess` times its bound.
+std::string remedies(const records::Summary& s, const TrustLimits& limits, const TrustContext& more, double excess) {
+  constexpr double out_of_reach = 1e4;  // a hundredth of the step, or of the tolerance as far as it goes
+  const std::string bound = number(100.0 * limits.sensor_error) + " %";
+  const std::string sensitive = "the motion is sensitive, any disturbance grows by e every " +
+                                number(more.errors_grow_in) + " s";
+  if (more.errors_grow_in > 0.0 && !(excess < out_of_reach))
+    return sensitive + ", so that no steps make it right to its end: end it earlier, or take what holds on average";
+  return (more.errors_grow_in > 0.0 ? sensitive + "; " : "") + remedy(s, excess) + " would make it less than " + bound;
+}
+
+void doubt_errors(const records::Summary& s, const TrustLimits& limits, const TrustContext& more,
+                  std::vector<records::Doubt>& doubts) {
   const auto& all = s.sensor_errors;
   if (all.empty()) {
     const double sum = s.checks.local_error_sum;
@@ -87,8 +105,7 @@ void doubt_errors(const records::Summary& s, const TrustLimits& limits, std::vec
                       : "") +
            (worst.of_energy > worst.of_steps ? ", since the energy that the integrator took slows the motion down"
                                              : ", as the local errors of the steps add up and grow") +
-           "; " + remedy(s, worst.relative() / limits.sensor_error) + " would make it less than " +
-           number(100.0 * limits.sensor_error) + " %"});
+           "; " + remedies(s, limits, more, worst.relative() / limits.sensor_error)});
 }
 
 void doubt_linear_solutions(const records::Summary& s, const TrustLimits& limits, std::vector<records::Doubt>& doubts) {
@@ -108,7 +125,7 @@ void doubt_linear_solutions(const records::Summary& s, const TrustLimits& limits
 
 /// Effect of round-off and tolerance on the results. At a located limit point the tangent is singular by nature, so
 /// such a run is not doubted for it.
-void doubt_condition(const records::Summary& s, bool is_dynamic, const TrustLimits& limits,
+void doubt_condition(const records::Summary& s, bool is_dynamic, const TrustLimits& limits, double least_force,
                      std::vector<records::Doubt>& doubts) {
   const double error = solver_figure(s, "solution_error_estimate");
   if (s.limit_points.empty() && passes(error, limits.lost))
@@ -121,7 +138,7 @@ void doubt_condition(const records::Summary& s, bool is_dynamic, const TrustLimi
   const records::UnsureReaction* worst = nullptr;
   std::size_t unsure = 0;
   for (const records::UnsureReaction& r : s.unsure_reactions) {
-    if (!passes(r.error, limits.lost * r.largest)) continue;
+    if (!passes(r.error, std::max(limits.lost * r.largest, limits.unbalanced * least_force))) continue;
     ++unsure;
     if (worst == nullptr || r.error > worst->error) worst = &r;
   }
@@ -209,7 +226,8 @@ std::string describe(const std::vector<records::ChangedVelocity>& changed) {
   return text;
 }
 
-std::vector<records::Doubt> doubts_of(const records::Summary& s, bool is_dynamic, const TrustLimits& limits) {
+std::vector<records::Doubt> doubts_of(const records::Summary& s, bool is_dynamic, const TrustLimits& limits,
+                                      const TrustContext& more) {
   std::vector<records::Doubt> doubts;
   if (s.status == records::RunStatus::failed) doubts.push_back({"run", "it broke off: " + s.cause});
   if (s.status == records::RunStatus::interrupted) doubts.push_back({"run", "it was stopped before its end"});
@@ -217,10 +235,10 @@ std::vector<records::Doubt> doubts_of(const records::Summary& s, bool is_dynamic
   const records::Checks& c = s.checks;
   if (c.evaluated && is_dynamic) doubt_energy(s, limits, doubts);
   if (c.evaluated && is_dynamic) doubt_momentum(c, limits, doubts);
-  if (c.evaluated && is_dynamic) doubt_errors(s, limits, doubts);
+  if (c.evaluated && is_dynamic) doubt_errors(s, limits, more, doubts);
   if (c.evaluated) doubt_constraints(c, limits, doubts);
   doubt_linear_solutions(s, limits, doubts);
-  doubt_condition(s, is_dynamic, limits, doubts);
+  doubt_condition(s, is_dynamic, limits, more.least_force, doubts);
   if (is_dynamic && passes(c.unbalanced_at_floor, limits.unbalanced))
     doubts.push_back(
         {"round-off",
@@ -228,9 +246,12 @@ std::vector<records::Doubt> doubts_of(const records::Summary& s, bool is_dynamic
              " steps ended at the round-off floor of the residual and left up to " + number(c.unbalanced_at_floor) +
              " of the largest force unbalanced: accelerations, reactions and section forces are no more exact"});
   if (s.stability && !s.stability->is_declared) doubt_stability(*s.stability, doubts);
-  if (static_cast<double>(s.steps.rejected) > limits.rejected * static_cast<double>(s.steps.accepted) &&
+  // Step control rejects steps to keep its tolerance, and load steps are cut to find equilibria, which do not depend on
+  // them: sizes that the program chose itself are those of the problem.
+  const long rejected = is_dynamic ? s.steps.rejected - s.steps.rejected_for_error : 0;
+  if (static_cast<double>(rejected) > limits.rejected * static_cast<double>(s.steps.accepted) &&
       s.status == records::RunStatus::ok)
-    doubts.push_back({"steps", std::to_string(s.steps.rejected) + " steps were rejected for " +
+    doubts.push_back({"steps", std::to_string(rejected) + " steps were rejected for " +
                                    std::to_string(s.steps.accepted) +
                                    " accepted ones: the step size is not that of the problem"});
   return doubts;

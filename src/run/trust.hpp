@@ -21,6 +21,9 @@ struct TrustLimits {
   /// Momentum that no impulse explains, over the largest momentum or impulse. Runs of the gallery stay below 3e-3; a
   /// body whose path bends by this much lands visibly elsewhere.
   double momentum_lost = 1e-2;
+  /// Energy balance at any time, relative to the largest energy: what the integrator added or took on the way, or an
+  /// energy that is not counted.
+  double energy_balance = 0.1;
   /// Estimated error of a sensor by the end (ErrorWatch), relative to its range. The estimate is right within a factor
   /// of three. Runs with errors of 12 %, which are visible in a picture, are thus always doubted, and runs right to 1 %
   /// never. Scenes of the gallery stay below 3.3 %.
@@ -45,6 +48,15 @@ struct TrustLimits {
   double rejected = 0.1;
 };
 
+/// What doubts take into account besides the summary.
+struct TrustContext {
+  /// Errors of reactions below `TrustLimits::unbalanced` times this do not count, where all reactions are zero but for
+  /// round-off [N].
+  double least_force = 0.0;
+  /// Of sensitive motions: the time in which an error grows by e, at the end [s]; 0: it grows no faster than a power.
+  double errors_grow_in = 0.0;
+};
+
 /// Describes the given initial velocities that the start has changed: the three largest changes, with given and actual
 /// values, and the number of others.
 std::string describe(const std::vector<records::ChangedVelocity>& changed);
@@ -52,6 +64,7 @@ std::string describe(const std::vector<records::ChangedVelocity>& changed);
 /// Reasons in words why a run should not be trusted without a closer look. They concern the run itself (it broke off),
 /// initial velocities, energy, errors, linear solutions, condition, constraints, stability, round-off and steps. Reads
 /// the status, changed velocities, steps, checks, levels and solver figures of the summary.
-std::vector<records::Doubt> doubts_of(const records::Summary& summary, bool is_dynamic, const TrustLimits& limits = {});
+std::vector<records::Doubt> doubts_of(const records::Summary& summary, bool is_dynamic, const TrustLimits& limits = {},
+                                      const TrustContext& more = {});
 
 }  // namespace bough::run

@@ -244,6 +244,14 @@ ErrorLimit LocalError::limit(double tolerance) const {
   return found;
 }
 
+LocalError::OfNode LocalError::of_node(std::size_t node) const {
+  const double h3 = step_ * step_ * step_;
+  if (!has_previous_) return {h3 * now_[node], Vec6<double>::zero(), Vec6<double>::zero()};
+  const Vec6<double> change = now_[node] - previous_[node];
+  return {(0.5 * h3) * Vec6<double>(now_[node] + previous_[node]), h3 * change,
+          std::copysign(velocity_factor(), alpha_.error_of_velocities()) * change};
+}
+
 void LocalError::displace(std::size_t node, elements::NodeMotion& motion) const {
   motion.v += (step_ * step_) * now_[node];
   const auto moved = motion::moved(motion::PreciseFrame<double>{motion.R, motion.x},

@@ -455,7 +455,7 @@ SceneFile turning_arm(const std::string& turns, const std::string& position, con
                              position + R"(, "turns": )" + turns + R"(}],
     "sections": [{"name": "s", "stiffness": [1, 1, 1, 1, 1, 1], "mass": [1, 1, 1, 1, 1, 1]}],
     "nodes": [{"name": "a"}, {"name": "b", "position": [1, 0, 0]}],
-    "beams": [{"name": "arm", "section": "s", "start": "a", "end": "b"}],
+    "beams": [{"name": "arm", "section": "s", "start": "a", "end": "b", "elements": 1}],
     "joints": [{"name": "clamp", "kind": "fixed", "first": "ground", "second": "a"}],
     "analysis": {"kind": "static", "frame": "hub"}})",
                          "arm");

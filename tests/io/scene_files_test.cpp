@@ -23,7 +23,7 @@ std::string section_scene(const std::string& shape) {
   return R"({"schema_version": 1, "materials": [{"name": "m", "young": 2e11, "poisson": 0.3, "density": 7800}],
     "sections": [{"name": "s", "material": "m", "shear_factors": [0.8, 0.8], "shape": )" +
          shape + R"(}], "nodes": [{"name": "a"}, {"name": "b", "position": [1, 0, 0]}],
-    "beams": [{"name": "beam", "section": "s", "start": "a", "end": "b"}],
+    "beams": [{"name": "beam", "section": "s", "start": "a", "end": "b", "elements": 1}],
     "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.1}})";
 }
 std::string body_scene(const std::string& looks) {

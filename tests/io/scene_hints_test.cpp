@@ -104,7 +104,7 @@ TEST(SceneHints, settings_without_effect_are_told) {
   const SceneFile path =
       read_scene_text(R"({"schema_version": 1, "nodes": [{"name": "a"}, {"name": "b", "position": [1, 0, 0]}],
     "sections": [{"name": "s", "stiffness": [1, 1, 1, 1, 1, 1]}],
-    "beams": [{"name": "arm", "section": "s", "start": "a", "end": "b"}],
+    "beams": [{"name": "arm", "section": "s", "start": "a", "end": "b", "elements": 1}],
     "joints": [{"name": "wall", "kind": "fixed", "first": "ground", "second": "a"}],
     "analysis": {"kind": "static", "load_steps": 4, "arc_length": {"step": 0.1}}})",
                       "path");
@@ -244,7 +244,7 @@ TEST(SceneHints, spectral_radius_of_one_goes_with_clamps_alone) {
     return read_scene_text(
         std::string(R"({"schema_version": 1, "nodes": [{"name": "a"}, {"name": "b", "position": [1, 0, 0]}],
       "sections": [{"name": "s", "stiffness": [1, 1, 1, 1, 1, 1], "mass": [1, 1, 1, 1, 1, 1]}],
-      "beams": [{"name": "arm", "section": "s", "start": "a", "end": "b"}], "joints": [{"name": "wall", "kind": ")") +
+      "beams": [{"name": "arm", "section": "s", "start": "a", "end": "b", "elements": 1}], "joints": [{"name": "wall", "kind": ")") +
             kind + R"(", "first": "ground", "second": "a", "axis": [0, 0, 1]}],
       "analysis": {"kind": "dynamic", "end_time": 1, "spectral_radius": 1}})",
         "beam");

@@ -16,7 +16,7 @@ std::string scene_with(const std::string& section, const std::string& more = "")
   return R"({"schema_version": 1, "materials": [{"name": "m", "young": 2e11, "shear": 8e10, "density": 7800}],
     "sections": [{"name": "s", )" +
          section + R"(}], "nodes": [{"name": "a"}, {"name": "b", "position": [1, 0, 0]}],
-    "beams": [{"name": "beam", "section": "s", "start": "a", "end": "b", "axis_2": [0, 1, 0]}],
+    "beams": [{"name": "beam", "section": "s", "start": "a", "end": "b", "axis_2": [0, 1, 0], "elements": 1}],
     "joints": [{"name": "wall", "kind": "fixed", "first": "ground", "second": "a", "position": [0, 0, 0]}],
     "loads": [{"name": "load", "at": "b", "force": [0, 100, 200]}],
     "analysis": {"kind": "static"})" +

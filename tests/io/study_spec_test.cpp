@@ -24,8 +24,8 @@ class Studies : public testing::Test {
       "nodes": [{"name": "a"}, {"name": "b", "position": [1, 0, 0]}, {"name": "c", "position": [2, 0, 0]}],
       "materials": [{"name": "steel", "young": 2e11, "poisson": 0.3, "density": 7850}],
       "sections": [{"name": "bar", "shape": {"kind": "rectangle", "width": 0.02, "height": 0.02}, "material": "steel"}],
-      "beams": [{"name": "one", "section": "bar", "start": "a", "end": "b"},
-                {"name": "two", "section": "bar", "start": "b", "end": "c"}],
+      "beams": [{"name": "one", "section": "bar", "start": "a", "end": "b", "elements": 1},
+                {"name": "two", "section": "bar", "start": "b", "end": "c", "elements": 1}],
       "sensors": [{"name": "place", "kind": "position", "at": "ball"}, {"name": "turn", "kind": "rotation", "at": "ball"}],
       "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.1},
       "expected": [{"quantity": "place.x", "value": 0, "tolerance": 1}]})";

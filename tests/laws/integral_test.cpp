@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "bough/laws/bounds.hpp"
 #include "bough/laws/make_law.hpp"
 #include "check_law.hpp"
 
@@ -47,6 +49,27 @@ TEST(Integral, derivative_of_the_integral_is_the_law) {
       }
     }
   }
+}
+
+TEST(Bounds, no_second_derivative_within_is_larger_and_short_intervals_leave_little_room) {
+  std::vector<Sample> samples = make_samples();
+  samples.push_back({"narrow pulse", make_expression("1e5*exp(-((t-0.5005)/5e-5)^2)")});
+  for (const Sample& sample : samples) {
+    SCOPED_TRACE(sample.name);
+    for (const double width : {2.0, 0.3, 1e-3})
+      for (double begin = -0.5; begin < 1.5; begin += 0.1737) {
+        const double bound = largest_acceleration(sample.law, begin, begin + width);
+        double most = 0.0;
+        for (int k = 0; k <= 100; ++k)
+          for (const Side side : {Side::left, Side::right})
+            if ((k > 0 || side == Side::right) && (k < 100 || side == Side::left))
+              most = std::max(most, std::abs(sample.law.at(begin + 0.01 * k * width, side).acceleration));
+        EXPECT_GE(bound, most * (1.0 - 1e-12));
+        if (width < 0.01 && std::isfinite(most)) EXPECT_LE(bound, 1.2 * most + 40.0);  // a wave may be anywhere in it
+      }
+  }
+  EXPECT_GT(largest_acceleration(samples.back().law, 0.0, 1.0), 1e13) << "the pulse is within";
+  EXPECT_LT(largest_acceleration(samples.back().law, 0.0, 0.49), 1e-3);
 }
 
 TEST(Integral, is_additive_over_the_time_it_starts_from) {

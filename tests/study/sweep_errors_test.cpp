@@ -170,7 +170,7 @@ TEST_F(Cache, counts_files_that_the_scene_names_to_what_a_reference_is_made_from
     "sections": [{"name": "bar", "material": "steel", "shear_factors": [0.8, 0.8],
                   "shape": {"kind": "polygon", "torsion_constant": 1e-8,
                             "file": "corners.csv"}}],
-    "beams": [{"name": "beam", "section": "bar", "start": "a", "end": "b"}],
+    "beams": [{"name": "beam", "section": "bar", "start": "a", "end": "b", "elements": 1}],
     "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.1}})";
   const auto with = [&](const char* corners) {
     std::ofstream(folder_ / "corners.csv") << corners;

@@ -61,6 +61,16 @@ class LocalError {
   void accept(const State& after);
 
   const ErrorParts& parts() const { return parts_; }
+
+  /// The last measured error of a node, in its own axes: the displacement that a step leaves, the mean of the last two
+  /// steps if both were measured; its change from the one to the other; and what is left of the velocity. Change and
+  /// velocity are zero where the step before was not measured. To be asked before `accept`.
+  struct OfNode {
+    motion::Vec6<double> place, change, velocity;
+  };
+  OfNode of_node(std::size_t node) const;
+  /// Errors of the states of signals in the last measured step, in the order of the states of Plan::signals.
+  double of_state(std::size_t k) const { return step_ * step_ * step_ * states_[k].error; }
   /// To be asked before `accept`. tolerance: of the control, which weighs places against velocities.
   ErrorLimit limit(double tolerance) const;
   /// Displaces a node, given in space, by the last measured e_q, and changes its velocity by e_q / h.

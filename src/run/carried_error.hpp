@@ -1,0 +1,57 @@
+#pragma once
+/// The error of a run in time, carried along by the linearised motion, and when to do so.
+#include <optional>
+
+#include "bough/step/error_transport.hpp"
+#include "bough/step/step_cost.hpp"
+
+namespace bough::run {
+
+/// Decides how many steps of the run one step of an error spans. It has to resolve the motion (`turn_a_step`), and all
+/// of them together may cost 2 % of the run, or 0.03 s where that is more. Costs are those of the model of steps, so
+/// that the decision is the same on every machine.
+class CarriedError {
+ public:
+  /// Keeps the references. steps: expected of the run.
+  CarriedError(step::System& system, const scene::Solver& solver, const step::StepOptions& options, double duration,
+               const step::State& start);
+
+  /// Whether so few steps of the error can be paid that they tell nothing.
+  static bool pays(const step::System& system, double steps);
+
+  /// To be called for every accepted step of equal size, whose factor is still there. Returns whether the error was
+  /// carried to this state.
+  [[nodiscard]] std::optional<step::Trouble> pass(const step::State& state, double steps_left, bool& is_carried);
+  /// The same where the error of every step is measured.
+  [[nodiscard]] std::optional<step::Trouble> pass(const step::State& state, const step::LocalError& local,
+                                                  double steps_left, bool& is_carried);
+  /// The far side of a jump.
+  void restart(double time);
+
+  const step::ErrorTransport& transport() const { return transport_; }
+  /// The time in which errors grew by e in the later half of the run [s]; 0: no faster than by a power of time.
+  double grows_in() const;
+  long num_steps() const { return num_steps_; }
+  /// Whether its steps have resolved the motion.
+  bool is_resolved() const { return unresolved_ <= 0.1 * all_; }
+
+ private:
+  std::optional<step::Trouble> carry(const step::State& state);
+  void add(const step::State& state, const step::LocalError& local, double steps);
+  void choose_stride(const step::State& state, const step::LocalError& local, double steps_left);
+
+  step::System& system_;
+  step::LocalError local_;
+  step::ErrorTransport transport_;
+  double budget_;       ///< steps of the error that may still be taken beyond the share of the run
+  double left_open_;    ///< of accelerations, by the tolerance of equations [-]
+  double cost_;         ///< of one, in steps of the run
+  long stride_ = 1, since_ = 0;
+  bool has_first_ = false;  ///< the error of the step before was measured
+  double duration_;
+  double largest_early_ = 0.0, largest_ = 0.0;  ///< errors in the first half of the run, and in all of it
+  long num_steps_ = 0;
+  double all_ = 0.0, unresolved_ = 0.0;  ///< durations [s]
+};
+
+}  // namespace bough::run

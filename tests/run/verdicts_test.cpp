@@ -1,0 +1,216 @@
+/// Verdicts of runs: what is wrong for a reason that a run can know is doubted with this reason, and its right twin is
+/// not.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "support/scenes.hpp"
+
+namespace bough::run {
+namespace {
+
+using support::Outcome;
+using support::scene_of;
+
+/// The first doubt about this with this word; empty: there is none.
+std::string doubt(const Outcome& run, const std::string& about, const std::string& word = "") {
+  for (const records::Doubt& d : run.summary.doubts)
+    if (d.about == about && d.text.find(word) != std::string::npos) return d.text;
+  return "";
+}
+
+std::string all_doubts(const Outcome& run) {
+  std::string text;
+  for (const records::Doubt& d : run.summary.doubts) text += d.about + ": " + d.text + "\n";
+  return text;
+}
+
+Outcome run_of(const std::string& json, const std::vector<std::string>& overrides = {}) {
+  Outcome out = support::run(scene_of(json, overrides));
+  EXPECT_TRUE(out.ok()) << out.summary.cause;
+  return out;
+}
+
+/// A mass on a rail under a force with this law, 1 s.
+std::string on_rail(const std::string& law, const std::string& analysis = R"("step_size": 1e-3)") {
+  return R"({"bodies": [{"name": "b", "kind": "point_mass", "mass": 1}],
+    "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "b", "axis": [1, 0, 0]}],
+    "loads": [{"at": "b", "force": [1, 0, 0], "law": )" +
+         law + R"(}],
+    "sensors": [{"name": "x", "kind": "joint_displacement", "joint": "rail"},
+                {"name": "v", "kind": "joint_rate", "joint": "rail"}],
+    "analysis": {"kind": "dynamic", "end_time": 1, )" +
+         analysis + "}}";
+}
+
+TEST(Verdict, a_pulse_shorter_than_a_step_is_told_and_one_that_steps_resolve_is_not) {
+  const char* const short_pulse = R"({"expression": "1e5*exp(-((t-0.5005)/5e-5)^2)"})";
+  const Outcome missed = run_of(on_rail(short_pulse));
+  EXPECT_LT(std::abs(missed.history.last("v")), 0.5) << "of 8.86 m/s";
+  EXPECT_NE(doubt(missed, "error", "do not see the law"), "") << all_doubts(missed);
+  const Outcome controlled = run_of(on_rail(short_pulse, R"("step_size": 1e-3, "step_control": {})"));
+  if (std::abs(controlled.history.last("v") - 8.862) > 0.1) {
+    EXPECT_NE(doubt(controlled, "error", "do not see the law"), "") << all_doubts(controlled);
+  }
+  const Outcome beside = run_of(on_rail(R"({"expression": "200 + 30*t + 1e5*exp(-((t-0.5005)/5e-5)^2)"})"));
+  EXPECT_NE(doubt(beside, "error", "do not see the law"), "") << "beside a load that steps see: " << all_doubts(beside);
+  const Outcome tiny = run_of(on_rail(R"({"expression": "1e9*exp(-((t-0.50037)/1e-8)^2)"})"));
+  EXPECT_NE(doubt(tiny, "error", "do not see the law"), "") << "a hundred thousandth of a step: " << all_doubts(tiny);
+  const Outcome seen = run_of(on_rail(R"({"expression": "1e3*exp(-((t-0.5005)/5e-3)^2)"})"));
+  EXPECT_NEAR(seen.history.last("v"), 8.862, 0.01);
+  EXPECT_EQ(all_doubts(seen), "");
+}
+
+TEST(Verdict, a_step_that_it_names_sees_the_pulse) {
+  const Outcome missed = run_of(on_rail(R"({"expression": "1e5*exp(-((t-0.5005)/5e-5)^2)"})"));
+  const std::string text = doubt(missed, "error", "take steps of ");
+  ASSERT_NE(text, "");
+  const std::string step = support::text(std::stod(text.substr(text.find("take steps of ") + 14)));
+  const Outcome named =
+      run_of(on_rail(R"({"expression": "1e5*exp(-((t-0.5005)/5e-5)^2)"})", R"("step_size": )" + step));
+  EXPECT_NEAR(named.history.last("v"), 8.862269, 0.1) << step;
+  EXPECT_EQ(all_doubts(named), "");
+}
+
+TEST(Verdict, a_wave_faster_than_the_steps_is_told) {
+  const Outcome aliased = run_of(on_rail(R"({"kind": "harmonic", "amplitude": 100, "frequency": 6503})"));
+  EXPECT_NE(doubt(aliased, "error", "do not see the law"), "") << all_doubts(aliased);
+  const Outcome seen = run_of(on_rail(R"({"kind": "harmonic", "amplitude": 100, "frequency": 200})"));
+  EXPECT_EQ(all_doubts(seen), "");
+}
+
+TEST(Verdict, a_motion_given_by_a_pulse_between_steps_is_told) {
+  const Outcome driven = run_of(R"({"bodies": [{"name": "b", "mass": 1, "inertia": [1, 1, 1]}],
+    "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "b", "axis": [1, 0, 0],
+                "drives": [{"law": {"expression": "2*t + 0.1*exp(-((t-0.5005)/5e-5)^2)"}}]}],
+    "initial_velocities": [{"of": "b", "velocity": [2, 0, 0]}],
+    "sensors": [{"name": "x", "kind": "joint_displacement", "joint": "rail"}],
+    "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 1e-3}})");
+  EXPECT_NE(doubt(driven, "error", "do not see the law"), "") << all_doubts(driven);
+}
+
+/// Two weights on rods of half a metre, let go from the horizontal (overrides: other angles, times).
+constexpr const char* two_weights = R"({"gravity": [0, 0, -9.81],
+  "bodies": [{"name": "a", "mass": 1, "inertia": [1e-4, 1e-4, 1e-4], "position": [0.5, 0, 0]},
+             {"name": "b", "mass": 1, "inertia": [1e-4, 1e-4, 1e-4], "position": [1, 0, 0]}],
+  "joints": [{"name": "A", "kind": "revolute", "first": "ground", "second": "a", "axis": [0, 1, 0]},
+             {"name": "B", "kind": "revolute", "first": "a", "second": "b", "position": [0.5, 0, 0],
+              "axis": [0, 1, 0]}],
+  "sensors": [{"name": "b", "kind": "position", "at": "b"}],
+  "analysis": {"kind": "dynamic", "end_time": 15, "step_size": 1e-3}})";
+
+TEST(Verdict, chaotic_motion_is_doubted_once_its_errors_have_grown_and_not_before) {
+  const Outcome late = run_of(two_weights);
+  EXPECT_NE(doubt(late, "error", "grow"), "") << all_doubts(late);
+  EXPECT_NE(doubt(late, "error", "sensitive"), "") << all_doubts(late);
+  const Outcome early = run_of(two_weights, {"/analysis/end_time=1"});
+  EXPECT_EQ(all_doubts(early), "");
+}
+
+/// A mass on a spring and a damper under a harmonic force.
+constexpr const char* forced = R"({
+  "bodies": [{"name": "m", "mass": 800, "inertia": [1, 1, 1]}],
+  "joints": [{"name": "j", "kind": "prismatic", "first": "ground", "second": "m", "axis": [0, 0, 1],
+              "forces": [{"stiffness": 2600, "damping": 260}]}],
+  "loads": [{"at": "m", "force": [0, 0, 1950], "law": {"expression": "sin(2*pi*t/5)"}}],
+  "sensors": [{"name": "z", "kind": "joint_displacement", "joint": "j"}],
+  "analysis": {"kind": "dynamic", "end_time": 1000, "step_size": 0.025}})";
+
+TEST(Verdict, steady_forced_vibrations_forget_their_errors_and_coarse_ones_are_doubted) {
+  const Outcome fine = run_of(forced);
+  EXPECT_EQ(all_doubts(fine), "");
+  const Outcome coarse = run_of(forced, {"/analysis/end_time=200", "/analysis/step_size=0.5"});
+  EXPECT_NE(doubt(coarse, "error"), "") << "ten steps a period: " << all_doubts(coarse);
+  const Outcome free = run_of(forced, {"/joints/0/forces/0/damping=0", "/analysis/step_size=0.05"});
+  EXPECT_NE(doubt(free, "error"), "") << "without a damper nothing is forgotten: " << all_doubts(free);
+}
+
+/// A cantilever of 1 m and 2 N m^2 under a force that follows its end.
+std::string beck(double force, const std::string& mass) {
+  return R"({"sections": [{"name": "s", "stiffness": {"EA": 2e8, "GA2": 8e7, "GA3": 8e7, "GJ": 10, "EI2": 2, "EI3": 2})" +
+         mass + R"(}],
+    "nodes": [{"name": "a"}, {"name": "b", "position": [1, 0, 0]}],
+    "beams": [{"name": "l", "section": "s", "start": "a", "end": "b", "elements": 6, "order": 3}],
+    "joints": [{"name": "c", "kind": "fixed", "first": "ground", "second": "a"}],
+    "loads": [{"at": "b", "force": [)" +
+         support::text(-force) + R"(, 0, 0], "axes": "body"}],
+    "sensors": [{"name": "tip", "kind": "position", "at": "b"}],
+    "analysis": {"kind": "static"}})";
+}
+constexpr const char* with_mass = R"(, "mass": {"mass_per_length": 0.4, "rotary": [1e-6, 1e-9, 1e-9]})";
+
+/// Beck's column flutters above 20.05 EI / L^2 = 40.1 N.
+TEST(Verdict, statics_under_a_following_load_are_doubted_where_they_flutter) {
+  const Outcome above = run_of(beck(44.0, with_mass));
+  EXPECT_NE(doubt(above, "stability", "flutters"), "") << all_doubts(above);
+  EXPECT_FALSE(above.summary.stability->is_known);
+  double low = 30.0, high = 50.0;
+  for (int k = 0; k < 12; ++k) {
+    const double force = 0.5 * (low + high);
+    (doubt(run_of(beck(force, with_mass)), "stability").empty() ? low : high) = force;
+  }
+  std::printf("| Beck's column | flutters above %.5f EI / L^2, closed form 20.0509 |\n", 0.25 * (low + high));
+  EXPECT_NEAR(0.25 * (low + high), 20.0509, 0.05);
+  const Outcome massless = run_of(beck(10.0, ""));
+  EXPECT_FALSE(massless.summary.stability->is_known);
+  EXPECT_NE(massless.summary.not_judged.find("stability is not examined"), std::string::npos)
+      << massless.summary.not_judged;
+  EXPECT_EQ(all_doubts(massless), "");
+}
+
+/// A deep strip of 1 m, bending stiffness 2 N m^2 sideways and torsional stiffness 2 N m^2, under a load at its end:
+/// Prandtl's critical load is 4.013 sqrt(EI GJ) / L^2 = 8.03 N.
+std::string strip(double force, const std::string& analysis) {
+  return R"({"sections": [{"name": "s", "stiffness": {"EA": 1e7, "GA2": 4e6, "GA3": 4e6, "GJ": 2, "EI2": 300, "EI3": 2},
+      "mass": {"mass_per_length": 0.5, "rotary": [2e-4, 1e-4, 1e-4]}, "damping": {"time": 1e-3}}],
+    "nodes": [{"name": "a"}, {"name": "b", "position": [1, 0, 0]}],
+    "beams": [{"name": "l", "section": "s", "start": "a", "end": "b", "axis_2": [0, 1, 0], "elements": 4, "order": 3}],
+    "joints": [{"name": "c", "kind": "fixed", "first": "ground", "second": "a"}],
+    "loads": [{"at": "b", "force": [0, 0, )" +
+         support::text(-force) + R"(], "law": )" + analysis + "}}";
+}
+
+TEST(Verdict, a_strip_that_buckles_sideways_in_time_is_doubted_though_its_plan_keeps_it_in_its_plane) {
+  const std::string ramp = R"({"kind": "ramp", "end_time": 1}}],
+    "sensors": [{"name": "b", "kind": "position", "at": "b"}],
+    "analysis": {"kind": "dynamic", "end_time": 3, "step_size": 4e-3)";
+  const Outcome above = run_of(strip(12.0, ramp));
+  EXPECT_NE(doubt(above, "stability", "out of its plane"), "") << all_doubts(above);
+  const Outcome below = run_of(strip(6.0, ramp));
+  EXPECT_EQ(all_doubts(below), "");
+  const std::string rest = R"(1}],
+    "sensors": [{"name": "b", "kind": "position", "at": "b"}],
+    "analysis": {"kind": "dynamic", "start": "equilibrium", "end_time": 0.1, "step_size": 2e-3)";
+  const Outcome start = run_of(strip(12.0, rest));
+  EXPECT_NE(doubt(start, "stability", "the equilibrium in which the run starts"), "") << all_doubts(start);
+  EXPECT_EQ(all_doubts(run_of(strip(6.0, rest))), "");
+}
+
+/// A shallow truss of two springs, 1 m to each side and 0.1 m high, of 10 kN/m. Its limit load is 3.83 N.
+std::string truss(double load, int steps) {
+  return R"({"bodies": [{"name": "m", "kind": "point_mass", "mass": 1, "position": [0, 0.1, 0]}],
+    "joints": [{"name": "g", "kind": "prismatic", "first": "ground", "second": "m", "position": [0, 0.1, 0],
+                "axis": [0, 1, 0]}],
+    "springs": [{"name": "l", "first": {"to": "ground", "position": [-1, 0, 0]}, "second": "m", "stiffness": 1e4},
+                {"name": "r", "first": {"to": "ground", "position": [1, 0, 0]}, "second": "m", "stiffness": 1e4}],
+    "loads": [{"at": "m", "force": [0, )" +
+         support::text(-load) + R"(, 0]}],
+    "sensors": [{"name": "m", "kind": "position", "at": "m"}],
+    "analysis": {"kind": "static", "load_steps": )" +
+         std::to_string(steps) + "}}";
+}
+
+TEST(Verdict, a_load_step_that_snaps_through_is_doubted_and_one_that_stiffens_is_not) {
+  for (const int steps : {1, 2, 7, 20}) {
+    const Outcome snapped = run_of(truss(4.02, steps));
+    EXPECT_LT(snapped.history.last("m.y"), 0.0);
+    EXPECT_NE(doubt(snapped, "stability", "another branch"), "") << steps << " steps: " << all_doubts(snapped);
+    EXPECT_EQ(all_doubts(run_of(truss(3.7, steps))), "") << steps << " steps";
+    EXPECT_EQ(all_doubts(run_of(truss(-2000.0, steps))), "") << steps << " steps, pulled upwards";
+  }
+}
+
+}  // namespace
+}  // namespace bough::run
