@@ -1,6 +1,8 @@
 /// bough sweep FILE: one scene in many cases.
 #include <algorithm>
+#include <chrono>
 #include <iostream>
+#include <map>
 #include <set>
 
 #include "arguments.hpp"
@@ -8,6 +10,7 @@
 #include "bough/io/quantity_text.hpp"
 #include "bough/io/read_sweep.hpp"
 #include "bough/run/estimate.hpp"
+#include "bough/run/outlook.hpp"
 #include "bough/study/cases.hpp"
 #include "bough/study/collect.hpp"
 #include "bough/study/journal.hpp"
@@ -56,43 +59,97 @@ std::size_t num_other_cases(const std::filesystem::path& folder, const std::vect
   return others.size();
 }
 
+/// What the cases will take: of some, evenly chosen, trial steps are taken. The others take the time that their size
+/// lets expect, times the ratio of what was tried to what its size lets expect.
+class Forecast {
+ public:
+  void look(std::size_t row, const scene::Scene& scene) {
+    const run::Estimate e = run::estimate_run(scene);
+    by_size_[row] = e.seconds();
+    if (used_ > most_seconds) return;
+    const auto begin = std::chrono::steady_clock::now();
+    tried_[row] = run::forecast_seconds(scene);
+    used_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    of_tried_ += tried_[row];
+    of_size_ += e.seconds();
+  }
+  bool holds(std::size_t row) const { return by_size_.count(row) > 0; }
+  double seconds(std::size_t row) const {
+    if (const auto known = tried_.find(row); known != tried_.end()) return known->second;
+    return by_size_.at(row) * (of_size_ > 0.0 ? of_tried_ / of_size_ : 1.0);
+  }
+  double all_seconds() const {
+    double sum = 0.0;
+    for (const auto& [row, size] : by_size_) sum += seconds(row);
+    return sum;
+  }
+  std::size_t num_tried() const { return tried_.size(); }
+
+ private:
+  static constexpr double most_seconds = 2.0;  ///< for trial steps
+  std::map<std::size_t, double> by_size_, tried_;
+  double used_ = 0.0, of_tried_ = 0.0, of_size_ = 0.0;
+};
+
+/// The numbers below `count`, those first that divide it most evenly: 0, 1/2, 1/4, 3/4 of it and so on.
+std::vector<std::size_t> spread(std::size_t count) {
+  std::vector<std::size_t> order;
+  std::vector<bool> is_in(count, false);
+  for (std::size_t parts = 1; order.size() < count; parts *= 2)
+    for (std::size_t k = 0; k < parts; ++k)
+      if (const std::size_t i = k * count / parts; !is_in[i]) {
+        is_in[i] = true;
+        order.push_back(i);
+      }
+  return order;
+}
+
 /// Lists the cases and what they will take, and runs none. Of many it looks at a thousand.
 int print_plan(const study::CaseList& cases, std::size_t left_out, int threads, const CaseSource& source) {
   constexpr std::size_t most_rows = 50, most_looks = 1000;
   const std::size_t every = std::max<std::size_t>(1, cases.size() / most_looks);
+  std::vector<std::size_t> looked_at;
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    if (i < most_rows || i % every == 0) looked_at.push_back(i);
+  Forecast forecast;
+  std::map<std::size_t, std::string> refused;
+  std::map<std::size_t, run::Estimate> sizes;
+  double most_bytes = 0.0;
+  for (const std::size_t k : spread(looked_at.size())) {
+    const std::size_t i = looked_at[k];
+    const io::SceneFile file = source.read(cases.at(i));
+    if (!file.ok()) {
+      refused[i] = file.problems.front().text();
+      continue;
+    }
+    forecast.look(i, file.scene);
+    sizes[i] = run::estimate_run(file.scene);
+    most_bytes = std::max(most_bytes, sizes[i].memory_bytes);
+  }
   std::vector<std::vector<std::string>> rows = {{"case"}};
   if (cases.size() > 0)
     for (const auto& [name, value] : cases.at(0).inputs) rows[0].push_back(name);
   for (const char* name : {"unknowns", "steps", "time", "memory"}) rows[0].emplace_back(name);
-  double seconds = 0.0, most_bytes = 0.0;
-  std::size_t bad = 0, looked_at = 0;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (i >= most_rows && i % every != 0) continue;
-    ++looked_at;
+  for (std::size_t i = 0; i < std::min(most_rows, cases.size()); ++i) {
     const study::BatchCase c = cases.at(i);
-    std::vector<std::string> row = {c.name};
+    std::vector<std::string>& row = rows.emplace_back(1, c.name);
     for (const auto& [name, value] : c.inputs) row.push_back(value);
-    const io::SceneFile file = source.read(c);
-    if (file.ok()) {
-      const run::Estimate e = run::estimate_run(file.scene);
-      seconds += e.seconds();
-      most_bytes = std::max(most_bytes, e.memory_bytes);
-      row.insert(row.end(), {io::rounded_text(e.unknowns, 6), io::rounded_text(e.steps, 6),
-                             io::seconds_text(e.seconds()), io::bytes_text(e.memory_bytes)});
-    } else {
-      ++bad;
-      row.push_back("refused: " + file.problems.front().text());
-    }
-    if (i < most_rows) rows.push_back(std::move(row));
+    if (forecast.holds(i))
+      row.insert(row.end(), {io::rounded_text(sizes[i].unknowns, 6), io::rounded_text(sizes[i].steps, 6),
+                             io::seconds_text(forecast.seconds(i)), io::bytes_text(sizes[i].memory_bytes)});
+    else
+      row.push_back("refused: " + refused[i]);
   }
   std::cout << table_text(rows);
   if (cases.size() > most_rows) std::cout << "and " << cases.size() - most_rows << " more\n";
-  seconds *= static_cast<double>(cases.size()) / static_cast<double>(std::max<std::size_t>(1, looked_at));
-  std::cout << cases.size() << " cases, " << left_out << " left out by conditions, " << bad << " refused"
-            << (looked_at < cases.size() ? " of " + std::to_string(looked_at) + " looked at" : "") << ": about "
-            << io::seconds_text(seconds / threads) << " on " << threads << (threads == 1 ? " thread" : " threads")
-            << ", up to " << io::bytes_text(most_bytes) << " a case\n";
-  return bad > 0 ? exit_bad_input : exit_done;
+  const double seconds = forecast.all_seconds() * static_cast<double>(cases.size()) /
+                         static_cast<double>(std::max<std::size_t>(1, looked_at.size()));
+  std::cout << cases.size() << " cases, " << left_out << " left out by conditions, " << refused.size() << " refused"
+            << (looked_at.size() < cases.size() ? " of " + std::to_string(looked_at.size()) + " looked at" : "")
+            << ": about " << io::seconds_text(seconds / threads) << " on " << threads
+            << (threads == 1 ? " thread" : " threads") << " by trial steps of " << forecast.num_tried() << ", up to "
+            << io::bytes_text(most_bytes) << " a case\n";
+  return refused.empty() ? exit_done : exit_bad_input;
 }
 
 /// Of files that the scene names.

@@ -1,15 +1,16 @@
 """Results of bough as NumPy arrays with names and units, and runs from Python. Needs NumPy alone.
 
     import bough
-    run = bough.run("four_bar.json", "out", set={"/analysis/end_time": 2, "/output/motion": True})
-    run["tip.x"], run.unit("tip.x"), run.time
-    run.plot("tip")                          # where matplotlib is installed
+    run = bough.run("data/scenarios/four_bar_misaligned.json", "out", set={"/output/motion": True})
+    run["C.x"], run.unit("C.x"), run.time
+    run.plot("C")                          # where matplotlib is installed
     motion = bough.read_motion("out")        # positions of beams and bodies, picture by picture
 
 `run` and `batch` call the program `bough` of the PATH, or that of the environment variable BOUGH.
 """
 
 import csv
+import difflib
 import json
 import os
 import pathlib
@@ -68,10 +69,7 @@ class Run:
         """The column of this name, or all columns of the sensor of this name, one array column each."""
         if column in self._index:
             return self._table[:, self._index[column]]
-        of_sensor = self.columns_of(column)
-        if not of_sensor:
-            raise KeyError(f"no column or sensor {column!r}; there are {', '.join(self.columns)}")
-        return self._table[:, [self._index[c] for c in of_sensor]]
+        return self._table[:, [self._index[c] for c in self._of_sensor(column)]]
 
     def __contains__(self, column):
         return column in self._index or bool(self.columns_of(column))
@@ -82,8 +80,20 @@ class Run:
     def columns_of(self, sensor):
         return [c for c in self.columns if c.rpartition(".")[0] == sensor]
 
+    def _of_sensor(self, sensor):
+        """The columns of a sensor; a KeyError that tells which names are near where there is none."""
+        of_sensor = self.columns_of(sensor)
+        if not of_sensor:
+            known = [*self.columns, *dict.fromkeys(c.rpartition(".")[0] for c in self.columns if "." in c)]
+            near = difflib.get_close_matches(str(sensor), known, 3, 0.5)
+            meant = f"did you mean {' or '.join(repr(name) for name in near)}? " if near else ""
+            raise KeyError(f"no column or sensor {sensor!r}; {meant}there are {', '.join(self.columns)}")
+        return of_sensor
+
     def unit(self, column):
         """Unit of a column, "" for a pure number and for a signal whose unit is not known."""
+        if column not in self._index:
+            self._of_sensor(column)
         return self._about.get(column, {}).get("unit", "")
 
     def label(self, column):
@@ -97,7 +107,7 @@ class Run:
 
         axes = axes if axes is not None else pyplot.gca()
         for name in columns:
-            for column in [name] if name in self._index else self.columns_of(name):
+            for column in [name] if name in self._index else self._of_sensor(name):
                 axes.plot(self.time, self[column], label=self.label(column))
         axes.set_xlabel(self.label("time"))
         axes.legend()

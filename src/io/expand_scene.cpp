@@ -302,7 +302,9 @@ class Expander {
       const std::int32_t instance = origins().add_instance(outer, group.index_id, index);
       for (const Group::Template& t : group.templates) {
         JsonValue& item = made_[t.list].add() = *t.value;
+        in_signals_ = t.list == "signals";
         apply(item, JsonPath{nullptr, t.pointer, 0});
+        in_signals_ = false;
         const JsonValue* own = root_.find_given(t.list);
         origins().add_item(t.list, own == nullptr ? 0 : own->items.size(), t.id, instance);
       }

@@ -36,7 +36,7 @@ class SweepConverter : public SceneConverter {
     if (const Value* where = root.find("where"); where != nullptr && where->sound)
       for (std::size_t i = 0; i < where->items.size(); ++i)
         read_condition(where->items[i], "/where/" + std::to_string(i));
-    if (faults.empty()) read_first_case();
+    if (faults.empty()) read_some_case();
   }
 
  private:
@@ -203,17 +203,41 @@ class SweepConverter : public SceneConverter {
     }
   }
 
-  /// Faults of the scene or of pointers show in the first case as well as in any other.
-  void read_first_case() {
-    std::vector<std::string> overrides = spec.overrides;
+  /// Faults of the scene and of pointers show with any values; a value at fault is the fault of its own cases, which
+  /// tell it where they run. Values after the first ones are therefore tried, one variable after the other, as long as
+  /// they leave fewer faults. If none is without any, the faults of the first values are told.
+  void read_some_case() {
+    std::vector<const SweepVariable*> variables;
     for (const SweepDesign& d : spec.designs)
-      for (const SweepVariable& v : d.variables) {
-        const bool draws = v.values.empty();
-        std::string value = draws ? "" : v.values.front().text;
-        if (draws) append_number(value, typical(v.distribution));
-        for (const std::string& pointer : v.pointers) overrides.push_back(pointer + "=" + value);
+      for (const SweepVariable& v : d.variables) variables.push_back(&v);
+    std::vector<std::size_t> chosen(variables.size(), 0);
+    const std::vector<std::string> first = overrides_with(variables, chosen);
+    std::size_t fewest = scene_->num_problems(first);
+    int tries = 0;
+    for (std::size_t k = 0; k < variables.size() && fewest > 0; ++k) {
+      std::size_t best = 0;
+      for (std::size_t i = 1; i < variables[k]->values.size() && fewest > 0 && ++tries <= most_tries; ++i) {
+        chosen[k] = i;
+        const std::size_t number = scene_->num_problems(overrides_with(variables, chosen));
+        if (number < fewest) best = i;
+        fewest = std::min(fewest, number);
       }
-    (void)scene_->read(overrides, origins_, "/scene", faults);
+      chosen[k] = best;
+    }
+    if (fewest > 0) (void)scene_->read(first, origins_, "/scene", faults);
+  }
+
+  std::vector<std::string> overrides_with(const std::vector<const SweepVariable*>& variables,
+                                          const std::vector<std::size_t>& chosen) const {
+    std::vector<std::string> overrides = spec.overrides;
+    for (std::size_t k = 0; k < variables.size(); ++k) {
+      const SweepVariable& v = *variables[k];
+      const bool draws = v.values.empty();
+      std::string value = draws ? "" : v.values[chosen[k]].text;
+      if (draws) append_number(value, typical(v.distribution));
+      for (const std::string& pointer : v.pointers) overrides.push_back(pointer + "=" + value);
+    }
+    return overrides;
   }
 
   static double typical(const SweepDistribution& d) {
@@ -230,6 +254,7 @@ class SweepConverter : public SceneConverter {
     return d.values.front();
   }
 
+  static constexpr int most_tries = 100;  ///< readings of the scene
   std::set<std::string> names_;
 };
 

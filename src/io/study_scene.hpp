@@ -33,6 +33,10 @@ class StudyScene {
   /// else at `otherwise`. A fault that was reported for the same place before is not repeated.
   std::optional<scene::Scene> read(const std::vector<std::string>& overrides, const std::vector<SettingOrigin>& origins,
                                    const std::string& otherwise, PlacedFaults& faults);
+  /// Number of problems of the scene with overrides.
+  std::size_t num_problems(const std::vector<std::string>& overrides) const {
+    return read_scene_text(text_, name_, overrides, folder_).problems.size();
+  }
 
  private:
   void expand_tokens(const JsonValue* at, const std::vector<std::string>& tokens, std::size_t k, std::string so_far,

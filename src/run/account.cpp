@@ -1,6 +1,7 @@
 #include "account.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <stdexcept>
 
 #include "bough/io/number_text.hpp"
@@ -22,9 +23,37 @@ bool Account::interrupt(const std::string& cause) {
   return false;
 }
 
+namespace {
+
+/// A text in which every number is the same sign: what notes of one kind have in common.
+std::string without_numbers(const std::string& text) {
+  std::string kind;
+  const char* const end = text.data() + text.size();
+  for (const char* at = text.data(); at != end;) {
+    double number = 0.0;
+    const bool is_number = *at >= '0' && *at <= '9';
+    kind += is_number ? '#' : *at;
+    at = is_number ? std::from_chars(at, end, number).ptr : at + 1;
+  }
+  return kind;
+}
+
+}  // namespace
+
 void Account::note(const std::string& text) {
-  if (std::find(summary_.notes.begin(), summary_.notes.end(), text) == summary_.notes.end())
-    summary_.notes.push_back(text);
+  std::vector<std::string>& notes = summary_.notes;
+  if (std::find(notes.begin(), notes.end(), text) != notes.end()) return;
+  const auto [known, is_new] = repeated_.try_emplace(without_numbers(text));
+  Repeated& kind = known->second;
+  ++kind.count;
+  if (is_new) {
+    notes.push_back(text);
+  } else if (kind.count == 2) {
+    kind.place = notes.size();
+    notes.push_back(text);
+  } else {
+    notes[kind.place] = std::to_string(kind.count - 1) + " more times with other numbers, the last time: " + text;
+  }
 }
 
 void Account::count(const step::StepReport& report, const step::State& state) {

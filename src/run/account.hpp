@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <unordered_map>
 
 #include "bough/records/run.hpp"
 #include "bough/solve/hierarchical.hpp"
@@ -25,7 +26,8 @@ class Account {
   bool fail(const std::string& cause);
   /// Sets the status to interrupted. Always returns false.
   bool interrupt(const std::string& cause);
-  /// Adds a note, unless the summary has it already.
+  /// Adds a note, unless the summary has it already. Notes that differ in numbers alone are two: the first, and how many
+  /// followed with the last of them.
   void note(const std::string& text);
 
   /// Counts an attempted step from or to this state: as accepted if it converged, else as rejected.
@@ -56,8 +58,14 @@ class Account {
   template <class Solver>
   void note_rank(double time, const Solver& solver);
 
+  struct Repeated {
+    long count = 0;
+    std::size_t place = 0;  ///< of the note of all but the first, among the notes
+  };
+
   const step::System& system_;
   records::Summary summary_;
+  std::unordered_map<std::string, Repeated> repeated_;   ///< by notes without their numbers
   double largest_force_ = 0.0, unbalanced_force_ = 0.0;  ///< in accepted steps; in those at the round-off floor [N]
   std::string first_rejection_, not_unique_;
   int dependent_rows_ = 0, least_dependent_rows_ = std::numeric_limits<int>::max();

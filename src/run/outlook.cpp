@@ -1,6 +1,7 @@
 #include "bough/run/outlook.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 
 #include "bough/results/balance.hpp"
@@ -123,6 +124,16 @@ const char* words(plan::Motions motions) {
 }
 
 }  // namespace
+
+double forecast_seconds(const scene::Scene& scene) {
+  const auto begin = std::chrono::steady_clock::now();
+  Built built(scene);
+  const double prepare = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const StepWork work = work_of(scene, built);
+  Effort e = effort_of(scene, built, work);
+  scale_seconds(e, measured_ratio(work, e));
+  return prepare + estimate_run(scene).steps * e.step_seconds();
+}
 
 Outlook look_ahead(const scene::Scene& scene) {
   Outlook out;

@@ -9,6 +9,7 @@
 
 #include "analysis.hpp"
 #include "bough/records/no_recorder.hpp"
+#include "bough/scene/nearest_name.hpp"
 #include "bough/schedule/threads.hpp"
 #include "judgement.hpp"
 
@@ -20,6 +21,17 @@ namespace {
 
 int threads_for(const scene::Scene& scene, const plan::Plan& plan, int asked) {
   return scene.solver.tasks && !plan.took("small") ? std::max(1, asked) : 1;
+}
+
+/// "; did you mean 'tip.x'? There are 'tip.x', 'tip.y', 'tip.z' and 4 more"
+std::string near(std::string_view name, const std::vector<std::string>& known) {
+  constexpr std::size_t most = 12;
+  const std::string nearest = scene::nearest_name(name, known);
+  std::string text = nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+  if (known.empty()) return "; there is none";
+  for (std::size_t i = 0; i < std::min(most, known.size()); ++i)
+    text += (i > 0 ? ", '" : nearest.empty() ? "; there are '" : " There are '") + known[i] + "'";
+  return known.size() > most ? text + " and " + std::to_string(known.size() - most) + " more" : text;
 }
 
 step::StepOptions options_for(const scene::Scene& scene, const plan::Plan& plan) {
@@ -169,7 +181,8 @@ const std::vector<double>& Simulation::values() {
 double Simulation::value(std::string_view column) {
   const std::vector<std::string>& columns = header().columns;
   const auto found = std::find(columns.begin(), columns.end(), column);
-  if (found == columns.end()) throw std::out_of_range("no sensor shows '" + std::string(column) + "'");
+  if (found == columns.end())
+    throw std::out_of_range("no sensor shows '" + std::string(column) + "'" + near(column, columns));
   return values()[static_cast<std::size_t>(found - columns.begin())];
 }
 
@@ -180,7 +193,12 @@ std::string Simulation::set_input(std::string_view signal, double value) {
   const auto input = std::find_if(signals.begin(), signals.end(), [&](const plan::SignalPlan& s) {
     return s.name == name && s.rule == plan::SignalRule::input;
   });
-  if (input == signals.end()) return "no signal of kind \"input\" has the name '" + name + "'";
+  if (input == signals.end()) {
+    std::vector<std::string> inputs;
+    for (const plan::SignalPlan& s : signals)
+      if (s.rule == plan::SignalRule::input) inputs.push_back(s.name);
+    return "no signal of kind \"input\" has the name '" + name + "'" + near(name, inputs);
+  }
   if (!std::isfinite(value)) return "the input '" + name + "' has to be finite";
   if (has_ended()) return "the simulation has ended, so that the input '" + name + "' has no effect";
   const auto i = static_cast<std::size_t>(input - signals.begin());

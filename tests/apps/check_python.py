@@ -59,6 +59,12 @@ def main():
         raise AssertionError("a column that is not there was given")
     except KeyError as error:
         assert "ball.x" in str(error)
+    for look in (lambda name: run[name], run.unit):  # a name that is not there is told with those near it
+        try:
+            look("bal.z")
+            raise AssertionError("a column that is not there was given")
+        except KeyError as error:
+            assert "did you mean 'ball.z'" in str(error), error
 
     motion = bough.read_motion(folder / "out")
     assert numpy.array_equal(motion.times, run.time)

@@ -188,6 +188,25 @@ TEST(SceneVary, nested_copies_know_the_indices_around_them) {
   EXPECT_EQ(names, "1,1 2,1 2,2 ");
 }
 
+// Formulas of signals in copies name other signals by braces, as those outside do; the index itself is a number.
+TEST(SceneVary, formulas_of_copied_signals_have_braces_in_names) {
+  const SceneFile file = read_scene_text(scene_of(R"("parameters": {"k": 3},
+      "bodies": [{"name": "b", "kind": "point_mass", "mass": 1}], "repeat": [{"index": "i", "count": 2,
+      "signals": [{"name": "x_{i}", "kind": "time", "law": {"expression": "i*t"}},
+        {"name": "y_{i}", "kind": "formula", "expression": "k*x_{i} + x_{1-i} + i"},
+        {"name": "z_{i}", "kind": "state", "expression": "y_{i} - z_{i}"}]}])"),
+                                         "s");
+  ASSERT_TRUE(file.ok()) << texts(file.problems);
+  ASSERT_EQ(file.scene.signals.size(), 6u);
+  for (const scene::Signal& s : file.scene.signals) {
+    if (s.name == "y_1") {
+      EXPECT_EQ(s.inputs, (std::vector<std::string>{"x_1", "x_0"}));
+      EXPECT_EQ(s.formula(std::vector<double>{10.0, 5.0}), 36.0);
+    }
+    if (s.name == "z_0") EXPECT_EQ(s.inputs, (std::vector<std::string>{"y_0", "z_0"}));
+  }
+}
+
 TEST(SceneVary, problems_name_the_line_of_the_source_and_the_copy) {
   const std::string text = replaced(scene_of(chain), "\"mass\": 1", R"("mass": {"expression": "2 - i"})");
   const SceneFile file = read_scene_text(text, "s");

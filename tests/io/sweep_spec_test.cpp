@@ -92,6 +92,21 @@ TEST_F(Sweeps, what_is_wrong_is_told_at_its_place) {
   expect_problem(good, {"/scene", "no such file"});
 }
 
+// A value at fault is told by its own case; only what all values share refuses the sweep.
+TEST_F(Sweeps, a_bad_value_in_the_first_place_refuses_no_other_case) {
+  for (const char* const members :
+       {R"("kind": "grid", "variables": [{"name": "m", "values": [-1, 1, 2]}, {"name": "k", "values": [1, -1]}])",
+        R"("kind": "grid", "variables": [{"name": "m", "values": [-1, 1]}, {"name": "k", "values": [-1, 2]}])",
+        R"("kind": "list", "variables": [{"name": "m"}, {"name": "k"}], "rows": [[0, 1], [1, 0], [3, 4]])"}) {
+    const SweepFile file = read(design(members));
+    EXPECT_TRUE(file.ok()) << members << file.problems.front().text();
+  }
+  expect_problem(design(R"("kind": "grid", "variables": [{"name": "m", "values": [-1, -2]}])"), {"/bodies/0/mass"});
+  expect_problem(design(R"("kind": "grid", "variables": [{"name": "m", "values": [1, 2]},
+      {"name": "q", "pointer": "/bodies/0/mas", "values": [1, 2]}])"),
+                 {"mas"});
+}
+
 TEST(StandingSweeps, are_sound) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(support::source_dir() / "data" / "sweeps")) {

@@ -45,6 +45,18 @@ TEST(TrialSteps, are_those_that_a_short_run_has) {
   EXPECT_EQ(work->trial_steps, 19);
 }
 
+/// What a sweep tells in advance: the time of a run by its trial steps, of a small scene, in which what is done once a
+/// step prevails over what grows with unknowns. Both are CPU times of one thread; the machine may be busy.
+TEST(Outlook, forecasts_the_time_of_a_small_run) {
+  scene::Scene s = test::make_chain(1);
+  s.analysis.step_size = 1e-3;
+  s.analysis.end_time = 8.0;
+  records::NoRecorder recorder;
+  const double forecast = forecast_seconds(s), taken = simulate(s, {}, recorder).times.cpu;
+  EXPECT_LT(forecast, 3.0 * taken);
+  EXPECT_GT(forecast, taken / 3.0);
+}
+
 TEST(Outlook, has_the_counts_of_trial_steps) {
   const scene::Scene s = make_swing(1000);
   const Outlook outlook = look_ahead(s);

@@ -86,6 +86,13 @@ TEST(Simulation, sensors_are_read_where_it_stands) {
   const std::string first = simulation.header().columns.front();
   EXPECT_EQ(simulation.value(first), rows.rows.back().values.front());
   EXPECT_THROW((void)simulation.value("nothing of this name"), std::out_of_range);
+  std::string near = first;
+  near.back() = '_';
+  try {
+    (void)simulation.value(near);
+  } catch (const std::out_of_range& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean '" + first), std::string::npos) << error.what();
+  }
   EXPECT_FALSE(simulation.advance_to(10.0)) << "the scene ends before";
   EXPECT_TRUE(simulation.has_ended());
 }

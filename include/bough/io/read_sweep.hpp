@@ -5,8 +5,8 @@
 
 namespace bough::io {
 
-/// The readable content of a sweep file. It is usable only if `problems` is empty; the scene of its first case is then
-/// valid, too. Faults of other cases are found when they run.
+/// The readable content of a sweep file. It is usable only if `problems` is empty; the scene is then valid with some
+/// values of its variables. Faults with others are those of their cases, found when they run.
 struct SweepFile {
   SweepSpec spec;
   std::vector<Problem> problems;  ///< in the order of the file; at most max_problems

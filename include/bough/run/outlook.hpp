@@ -58,4 +58,9 @@ struct Outlook {
 /// Precondition: problems_in(scene) is empty.
 Outlook look_ahead(const scene::Scene& scene);
 
+/// Seconds that a run of the scene will take on one thread, with its preparation and without its files: the step is that
+/// of trial steps on this machine, as look_ahead takes them, or of the model where these would take too long. Takes up
+/// to some .2 s, or the time of the fewest trial steps. Precondition: problems_in(scene) is empty.
+double forecast_seconds(const scene::Scene& scene);
+
 }  // namespace bough::run

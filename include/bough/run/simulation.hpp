@@ -40,7 +40,8 @@ class Simulation {
   /// Names and units of all components of sensors, and their present values in the same order.
   const records::HistoryHeader& header() const;
   const std::vector<double>& values();
-  /// One of these values, by "<sensor>.<component>" or "<sensor>"; throws std::out_of_range if there is none.
+  /// One of these values, by "<sensor>.<component>" or "<sensor>"; throws std::out_of_range if there is none, which
+  /// tells the names that there are.
   double value(std::string_view column);
 
   /// Sets a signal of kind "input", from the present time on. The next step starts anew, as at a jump of a law, unless
