@@ -17,6 +17,27 @@ void LoadSteps::begin_load_step() {
   next_stop_ = 0;
 }
 
+int LoadSteps::most_cuts() const {
+  constexpr int more = 14;
+  return options_.max_cuts + (options_.max_cuts == scene::Analysis{}.max_cuts ? more : 0);
+}
+
+std::string LoadSteps::ways_on() const {
+  return "; tried were " + std::to_string(num_steps_) + (num_steps_ == 1 ? " load step" : " load steps") + ", halved " +
+         std::to_string(most_cuts()) +
+         " times. Ways on: \"arc_length\": {} follows the path past a limit point of the "
+         "load; dynamics with \"start\": \"equilibrium\" finds a stable shape from a first shape that is far from it; "
+         "a larger number of \"load_steps\" or \"max_cuts\" takes smaller steps";
+}
+
+void LoadSteps::add_notes() {
+  if (most_level_ > options_.max_cuts)
+    note("a load step was halved " + std::to_string(most_level_) + " times from load factor " +
+         io::rounded_text(most_cut_at_, 6) + " on, beyond the usual " + std::to_string(options_.max_cuts) +
+         ", since Newton's method found no equilibrium from the shape there: a first shape nearer to it, "
+         "\"arc_length\" or dynamics with \"start\": \"equilibrium\" takes fewer steps");
+}
+
 bool LoadSteps::begin() {
   if (const auto t = system_.set_time(0.0)) return fail(t->text);
   record(0, false);
@@ -26,8 +47,9 @@ bool LoadSteps::begin() {
 void LoadSteps::add_doubts() {
   Statics::add_doubts();
   if (jumps_.empty()) return;
-  const std::string text = jumps_ + " the structure jumped to another branch of equilibria: smaller load steps do not "
-                                    "make the motion between them smaller";
+  const std::string text = jumps_ +
+                           " the structure jumped to another branch of equilibria: smaller load steps do not "
+                           "make the motion between them smaller";
   if (scene_.analysis.unstable)
     note(text);
   else
@@ -49,8 +71,8 @@ bool LoadSteps::take_step() {
     const step::StepReport report = step::equilibrate(system_, state_, options_, target);
     count(report);
     if (!report.converged) {
-      if (++level_ > options_.max_cuts)
-        return fail("no equilibrium at load factor " + std::to_string(target) + ": " + report.cause);
+      if (++level_ > most_cuts())
+        return fail("no equilibrium at load factor " + io::rounded_text(target, 12) + ": " + report.cause + ways_on());
       part_ *= 2;
       continue;
     }
@@ -59,6 +81,10 @@ bool LoadSteps::take_step() {
       jumps_ += (jumps_.empty() ? "from load factor " : ", and from ") + io::rounded_text(before, 6) + " to " +
                 io::rounded_text(target, 6);
     last_step_ = target - before;
+    if (level_ > most_level_) {
+      most_level_ = level_;
+      most_cut_at_ = before;
+    }
     if (!plan_.joints.empty()) step::accept_turns(system_, state_);
     ++part_;
     while (level_ > 0 && part_ % 2 == 0) {
