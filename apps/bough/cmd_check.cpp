@@ -57,6 +57,8 @@ std::size_t print_mobility(const std::filesystem::path& file, const scene::Scene
   const plan::Mobility& mobility = plan.mobility;
   for (const auto* list : {&mobility.locked, &mobility.free, &mobility.massless})
     for (const std::string& text : *list) std::cerr << file.string() << ": warning: " << text << "\n";
+  if (const plan::IdleMotions idle = plan::idle_motions(s, plan); idle.count > 0)
+    std::cerr << file.string() << ": warning: " << idle.note << "\n";
   const std::vector<std::string> refused = plan::undriven_motions(s, plan);
   for (const std::string& text : refused) std::cerr << file.string() << ": " << text << "\n";
   return refused.size();

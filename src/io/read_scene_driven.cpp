@@ -17,13 +17,6 @@ namespace {
 
 using scene::SignalKind;
 
-/// A number with all its digits, in brackets.
-std::string in_brackets(double x) {
-  std::string text = "(";
-  append_number(text, x);
-  return text + ")";
-}
-
 /// A formula with other words in the place of some names.
 std::string with_words(const std::string& formula, const std::map<std::string, std::string>& words) {
   std::string made;
@@ -136,16 +129,13 @@ scene::Joint strut_of(const scene::Spring& s, const std::vector<std::string>& ef
   return strut;
 }
 
-/// The rate of the state of a servo, as a formula: what its gains ask for over the limit, less the state, by the lag.
-std::string servo_text(const JsonValue& v, const scene::Signal& state, const scene::Signal& way,
-                       const scene::Signal& rate, const std::string& target, const std::string& target_rate) {
-  const auto given = [&v](const char* key) { return in_brackets(v.find(key)->number); };
-  const std::string wanted = given("position_gain") + "*(" + target + " - " + way.name + ") + " + given("rate_gain") +
-                             "*(" + target_rate + " - " + rate.name + ")";
-  return "(min(max((" + wanted + ")/" + given("limit") + ", -1), 1) - " + state.name + ")/" + given("lag");
-}
-
 }  // namespace
+
+std::string in_brackets(double x) {
+  std::string text = "(";
+  append_number(text, x);
+  return text + ")";
+}
 
 void Converter::need_signal(const std::string& name, const std::string& at) {
   if (known_signals_.count(name) > 0) return;
@@ -218,68 +208,6 @@ void Converter::driven_spring(const Value& v, const std::string& at, const scene
   }
   add(scene.joints, "joints", strut_of(s, efforts), at);
   for (scene::Signal& signal : made) add_signal(std::move(signal), at);
-}
-
-/// The joint of this name, which was read before; nullptr, told, if there is none.
-scene::Joint* Converter::joint_to_drive(const std::string& name, const std::string& at) {
-  if (scene::Joint* joint = joint_named(name)) return joint;
-  left_out_ |= is_defective(name);
-  if (left_out_) return nullptr;
-  std::vector<std::string> names;
-  if (!search_.is_spent())
-    for (const scene::Joint& joint : scene.joints) names.push_back(joint.name);
-  fault(at, "no joint has this name", did_you_mean(name, names));
-  return nullptr;
-}
-
-/// A servo: an effort T = limit y along a coordinate q, with the state
-///   lag y' = limited((position_gain (target - q) + rate_gain (target_rate - q')) / limit) - y,   |limited| <= 1.
-/// y stays within its limits, so that nothing winds up, and errors of y count relative to the limit.
-void Converter::actuator(const Value& v, const std::string& at) {
-  const std::string name = v.find("name")->text, stem = name + "_";
-  scene::Joint* joint = joint_to_drive(v.find("joint")->text, at + "/joint");
-  if (joint == nullptr) return;
-  const scene::JointType& type = scene::type_of(joint->kind);
-  std::string coordinate = text_or(v, "coordinate");
-  if (coordinate.empty() && type.coordinates.size() == 1) coordinate = type.coordinates.front().name;
-  const scene::JointCoordinate* along = type.coordinate(coordinate);
-  if (along == nullptr) {
-    std::string known;
-    for (const scene::JointCoordinate& c : type.coordinates) known += (known.empty() ? "" : " or ") + c.name;
-    return fault(at + (v.find("coordinate") == nullptr ? "/joint" : "/coordinate"),
-                 "a " + type.name + " joint has no such coordinate that a servo could drive",
-                 known.empty() ? "" : "\"coordinate\" is " + known);
-  }
-  constexpr std::size_t most_forces = 4;
-  if (joint->forces.size() == most_forces)
-    return fault(at + "/joint", "the joint has " + std::to_string(most_forces) + " forces already, and takes no more",
-                 "put springs or efforts along one coordinate together");
-  const double limit = v.find("limit")->number, start = v.find("start")->number;
-  if (std::abs(start) > limit) fault(at + "/start", "lies beyond the limit of " + rounded_text(limit, 6));
-  scene::Signal way, rate, state, effort;
-  const auto reading = [&](scene::Signal& s, SignalKind kind, const char* end) {
-    s.kind = kind;
-    s.name = unused_signal_name(stem + end);
-    s.joint = joint->name;
-    s.coordinate = coordinate;
-  };
-  reading(way, along->is_length() ? SignalKind::joint_displacement : SignalKind::joint_angle, "coordinate");
-  reading(rate, SignalKind::joint_rate, "rate");
-  const std::string target = signal_of(*v.find("target"), at + "/target", stem + "target"),
-                    target_rate = signal_of(*v.find("target_rate"), at + "/target_rate", stem + "target_rate");
-  if (faults.size() != faults_before_) return;
-  state.kind = SignalKind::state;
-  state.name = unused_signal_name(stem + "of_limit");
-  state.inputs = {state.name, way.name, rate.name, target};
-  if (target_rate != target) state.inputs.push_back(target_rate);
-  state.formula = laws::Formula(servo_text(v, state, way, rate, target, target_rate), state.inputs);
-  state.start = start / limit;
-  state.unit = "-";
-  effort.name = name;
-  effort.inputs = {state.name};
-  effort.formula = laws::Formula(in_brackets(limit) + "*" + state.name, effort.inputs);
-  joint->forces.push_back({coordinate, 0.0, 0.0, 0.0, {}, name});
-  for (scene::Signal* signal : {&way, &rate, &state, &effort}) add_signal(std::move(*signal), at);
 }
 
 /// Gravity whose factor or components signals give: it is made of weights (weigh).

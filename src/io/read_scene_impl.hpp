@@ -18,6 +18,9 @@
 
 namespace bough::io {
 
+/// A number with all its digits, in brackets.
+std::string in_brackets(double x);
+
 /// Applies overrides "/pointer=value" to a document. texts: stores the texts of the values; text i is the source i + 1
 /// of the new values.
 void apply_overrides(JsonValue& root, std::span<const std::string> overrides, std::vector<std::string>& texts,
@@ -86,6 +89,8 @@ class Converter : private ValueConverter {
   bool is_defective(const std::string& name);
   void take_in_units(const Value& v, const std::string& at, double nominal, scene::Signal& s);
   void reaction(const Value& component, const std::string& at, scene::Signal s);
+  void force(const Value& v, const std::string& at, scene::Signal s);
+  void add_turned(scene::Signal s, double sign, const std::string& at);
   std::string unit_of(const Value& v, const std::string& at);
   void signal(const Value& v, const std::string& at);
   laws::Law law_or_signal(const Value& v, const std::string& at, std::string& signal);
@@ -100,10 +105,24 @@ class Converter : private ValueConverter {
   void need_signal(const std::string& name, const std::string& at);
   std::string signal_of(const Value& v, const std::string& at, const std::string& name);
   void driven_spring(const Value& v, const std::string& at, const scene::Spring& s);
-  void actuator(const Value& v, const std::string& at);
-  scene::Joint* joint_to_drive(const std::string& name, const std::string& at);
   void driven_gravity(const Value& v);
   void weigh();
+
+  // Servos (read_scene_actuators.cpp).
+  struct Servo {
+    std::string name, stem, coordinate;
+    scene::Joint* joint = nullptr;
+    bool is_length = false;
+    std::optional<double> limit, lag;
+  };
+  void actuator(const Value& v, const std::string& at);
+  scene::Joint* joint_to_drive(const std::string& name, const std::string& at);
+  bool find_coordinate(const Value& v, const std::string& at, Servo& servo);
+  void add_effort(const Value& v, const Servo& servo, const std::string& wanted, std::vector<std::string> inputs,
+                  const std::string& at);
+  std::string rate_of(const Value& target, const std::string& at, const std::string& name);
+  std::string rate_of_signal(const std::string& signal, const std::string& at, const std::string& name);
+  std::string add_time(const laws::Law& law, const std::string& name, const std::string& at);
 
   // The rest (read_scene_rest.cpp).
   void load(const Value& v, const std::string& at);

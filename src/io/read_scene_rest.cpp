@@ -79,7 +79,9 @@ void Converter::initial_velocity(const Value& v, const std::string& at) {
   i.axes = axes(v);
   i.frame = frame_name(v);
   i.velocity = vector(*v.find("velocity"));
-  i.angular_velocity = vector(*v.find("angular_velocity"));
+  const Value* angular = v.find("angular_velocity");
+  i.has_angular_velocity = angular != nullptr;
+  if (angular != nullptr) i.angular_velocity = vector(*angular);
   add(scene.initial_velocities, "initial_velocities", std::move(i), at);
 }
 
@@ -93,6 +95,7 @@ void Converter::sensor(const Value& v, const std::string& at) {
   s.coordinate = text_or(v, "coordinate");
   s.signal = text_or(v, "signal");
   s.subdomain = text_or(v, "subdomain");
+  s.part = text_or(v, "of");
   s.axes = axes(v);
   s.frame = frame_name(v);
   if (const Value* chain = v.find("frames"))

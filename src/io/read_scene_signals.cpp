@@ -6,6 +6,7 @@
 #include "bough/io/number_text.hpp"
 #include "bough/laws/formula.hpp"
 #include "bough/laws/law_error.hpp"
+#include "bough/laws/make_law.hpp"
 #include "bough/scene/signals.hpp"
 #include "read_scene_impl.hpp"
 
@@ -136,12 +137,57 @@ void Converter::reaction(const Value& component, const std::string& at, scene::S
   s.coordinate = component.text;
   const scene::Joint* joint = joint_named(s.joint);
   const auto row = joint == nullptr ? std::nullopt : scene::reaction_row(scene::type_of(joint->kind), s.coordinate);
-  if (row && row->sign > 0.0) {
+  add_turned(std::move(s), row ? row->sign : -1.0, at);
+}
+
+/// Adds a signal that reads a multiplier with its sign changed, as an effort is; sign: of the component times the
+/// multiplier.
+void Converter::add_turned(scene::Signal s, double sign, const std::string& at) {
+  if (sign > 0.0) {
     scene::Signal turned;
     turned.name = std::exchange(s.name, unused_signal_name(s.name + "_turned"));
     turned.inputs = {s.name};
     turned.formula = laws::Formula("-" + s.name, turned.inputs);
     add_signal(std::move(turned), at);
+  }
+  add_signal(std::move(s), at);
+}
+
+/// A component of the force of a prescribed motion, or of a load: that has the factor of its law or signal.
+void Converter::force(const Value& v, const std::string& at, scene::Signal s) {
+  s.part = v.find("of")->text;
+  s.coordinate = v.find("component")->text;
+  const auto named = [&s](const auto& part) { return part.name == s.part; };
+  const auto motion = std::find_if(scene.motions.begin(), scene.motions.end(), named);
+  const auto load = std::find_if(scene.point_loads.begin(), scene.point_loads.end(), named);
+  s.kind = SignalKind::force;
+  if (motion != scene.motions.end()) {
+    const auto row = scene::force_row(*motion, s.coordinate);
+    return add_turned(std::move(s), row ? row->sign : -1.0, at);
+  }
+  if (load == scene.point_loads.end()) {
+    left_out_ |= is_defective(s.part);
+    if (left_out_) return;
+    std::vector<std::string> names;
+    for (const scene::PrescribedMotion& m : scene.motions) names.push_back(m.name);
+    for (const scene::PointLoad& l : scene.point_loads) names.push_back(l.name);
+    return fault(at + "/of", "no prescribed motion or load at a point has this name", did_you_mean(s.part, names));
+  }
+  const int k = s.coordinate.back() - 'x';
+  const double size = s.coordinate.front() == 'f' ? load->force[k] : load->moment[k];
+  s.unit = s.coordinate.front() == 'f' ? "N" : "N m";
+  s.part.clear();
+  s.coordinate.clear();
+  if (!load->signal.empty()) {
+    s.kind = SignalKind::formula;
+    s.inputs = {load->signal};
+    s.formula = laws::Formula(in_brackets(size) + "*" + load->signal, s.inputs);
+  } else {
+    s.kind = SignalKind::time;
+    const bool grows = is_static_ && load->law.node() == nullptr;  // with the load factor
+    s.law = grows                         ? laws::make_expression(in_brackets(size) + "*t")
+            : load->law.node() == nullptr ? laws::make_constant(size)
+                                          : laws::make_scaled(size, load->law);
   }
   add_signal(std::move(s), at);
 }
@@ -164,6 +210,7 @@ void Converter::signal(const Value& v, const std::string& at) {
   if (const Value* numbers = root_.find("parameters"); numbers != nullptr && numbers->find(s.name) != nullptr)
     fault(at + "/name", "a parameter has this name, and formulas would take its number");
   s.joint = text_or(v, "joint");
+  if (v.find("kind")->text == "force") return force(v, at, std::move(s));
   if (const Value* component = v.find("component")) return reaction(*component, at, std::move(s));
   s.kind = scene::signal_kind_named(v.find("kind")->text.str()).value();  // the schema takes no other names
   s.coordinate = text_or(v, "coordinate");

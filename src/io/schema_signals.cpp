@@ -20,6 +20,10 @@ std::vector<Field> keys_of(SignalField field) {
       return {need("component", word_rule("", {"fx", "fy", "fz", "mx", "my", "mz"}),
                    "Force along or moment about an axis of the first's joint frame, along which or about which the "
                    "joint leaves nothing free.")};
+    case SignalField::part:
+      return {need("of", reference, "The prescribed motion or the load."),
+              need("component", word_rule("", {"fx", "fy", "fz", "mx", "my", "mz"}),
+                   "Force along or moment about an axis; of a prescribed motion one that it holds.")};
     case SignalField::spring:
       return {need("spring", reference, "The spring.")};
     case SignalField::point:

@@ -193,11 +193,12 @@ void add_joints(RuleTable& t) {
             "Its name, which is that of the signal T too."),
        need("joint", reference, "The joint; a strut for one between two points."), may("coordinate", coordinate, which),
        may("target", named_rule("law_or_signal"), "Wanted coordinate [rad] or [m].", "0"),
-       may("target_rate", named_rule("law_or_signal"), "Wanted rate [rad/s] or [m/s].", "0"),
+       may("target_rate", named_rule("law_or_signal"),
+           "Wanted rate [rad/s] or [m/s]. Default: that of the target, of signals as far as it follows."),
        may("position_gain", not_negative(""), "[N m/rad] or [N/m].", "0"),
        may("rate_gain", not_negative(""), "[N m s/rad] or [N s/m].", "0"),
-       need("limit", positive(""), "Largest torque [N m] or force [N]."),
-       need("lag", positive(""), "Time constant [s]."),
+       may("limit", positive(""), "Largest torque [N m] or force [N]. Default: none."),
+       may("lag", positive(""), "Time constant [s]. Default: none; the effort then follows at once."),
        may("start", any_number, "T at the start of dynamics [N m] or [N]; within the limit.", "0")}));
   const RuleRef six = choice_rule("", {named_rule("diagonal6"), named_rule("matrix6")});
   t.named["bushing"] =
@@ -256,7 +257,8 @@ void add_loads(RuleTable& t) {
        frame_field("Frame that it is relative to, whose own motion is added, and in whose axes space components are. "
                    "Default: the ground."),
        may("velocity", named_rule("vector"), "Of the frame's origin [m/s].", "[0, 0, 0]"),
-       may("angular_velocity", named_rule("vector"), "[rad/s].", "[0, 0, 0]")}));
+       may("angular_velocity", named_rule("vector"),
+           "[rad/s]. Default: 0; a point mass, or a node without beams, turns with what holds it.")}));
 }
 
 /// Fields of a sensor by what it is attached to, and those that its kind takes besides.
@@ -277,6 +279,8 @@ Rule sensor_rule(const scene::SensorType& type) {
   } else if (type.of == SensorOf::subdomain) {
     fields.push_back(need("subdomain", text_rule(""),
                           "Its path in the tree of the solver: the number of the child at each level, as \"0.1\"."));
+  } else if (type.of == SensorOf::part) {
+    fields.push_back(need("of", reference, "The prescribed motion, spring, bushing or load."));
   } else if (type.of != SensorOf::whole) {
     fields.push_back(need("joint", reference, "The joint."));
   }

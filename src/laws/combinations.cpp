@@ -85,6 +85,25 @@ class Product final : public Node {
   Law b_;
 };
 
+/// f = g'.
+class Rate final : public Node {
+ public:
+  explicit Rate(Law law) : law_(std::move(law)) {}
+
+  LawValue at(double t, Side side) const override {
+    const double ahead = (side == Side::right ? 1e-6 : -1e-6) * std::max(1.0, std::abs(t));
+    const LawValue g = law_.at(t, side), beside = law_.at(t + ahead, side);
+    return {g.rate, g.acceleration, (beside.acceleration - g.acceleration) / ahead};
+  }
+  void append_breaks(double t_begin, double t_end, int max_order, BreakList& breaks) const override {
+    laws::append_breaks(law_, t_begin, t_end, max_order == any_order ? any_order : max_order + 1, breaks);
+  }
+  Law integral(double t0) const override { return make_quadrature_integral(Law{std::make_shared<Rate>(law_)}, t0); }
+
+ private:
+  Law law_;
+};
+
 /// The law of the last segment that has begun. order: lowest derivative that may jump at a start.
 class Piecewise final : public Node {
  public:
@@ -210,5 +229,7 @@ Law make_cycloidal(double t0, double t1, double v0, double v1) {
   std::vector<Segment> segments{{t0 - 1.0, make_constant(v0)}, {t0, make_sum({line, wave})}, {t1, make_constant(v1)}};
   return Law{std::make_shared<Piecewise>(std::move(segments), 3)};
 }
+
+Law make_rate(const Law& law) { return law.is_constant() ? make_constant(0.0) : Law{std::make_shared<Rate>(law)}; }
 
 }  // namespace bough::laws

@@ -134,6 +134,14 @@ void Builder::add_beams() {
   }
 }
 
+/// All elements of a prescribed motion, a spring, a bushing or a load.
+std::vector<int> Builder::elements_with_force(const std::string& part) const {
+  std::vector<int> ids;
+  for (std::size_t id = 0; id < plan.directory.size(); ++id)
+    if (plan.element_owner[id] == part) ids.push_back(static_cast<int>(id));
+  return ids;
+}
+
 void Builder::add_sensors() {
   if (scene.sensors.empty()) return;
   std::unordered_map<std::string_view, int> joint_of;
@@ -158,6 +166,7 @@ void Builder::add_sensors() {
       p.signal = law_of_signal.at(s.signal);
       p.signal_unit = unit_of_signal.at(s.signal);
     }
+    if (!s.part.empty()) p.elements = elements_with_force(s.part);
     if (!s.subdomain.empty()) p.subdomain = scene::read_path(s.subdomain).value();
     if (p.beam < 0 && scene::type_of(s.kind).of == scene::SensorOf::point) p.port = port_at(s.at);
     p.frame = port_at(s.frame, Frame<double>::identity());

@@ -21,9 +21,34 @@ bool is_rigid(const elements::Joint& e) {
 
 }  // namespace
 
+/// What a signal reads and what it drives interact, also through signals that are made of it.
+void Builder::join_by_signals(Sets& parts) const {
+  if (plan.signals.empty()) return;
+  Sets made(plan.signals.size());
+  for (std::size_t i = 0; i < plan.signals.size(); ++i)
+    for (const int other : plan.signals[i].signals) made.join(i, static_cast<std::size_t>(other));
+  std::vector<std::size_t> first(plan.signals.size(), parts.ground());
+  const auto touch = [&](std::size_t signal, const elements::Port& p) {
+    if (p.node == elements::ground) return;
+    std::size_t& known = first[made.of(signal)];
+    const auto node = static_cast<std::size_t>(p.node);
+    if (known != parts.ground()) parts.join(node, known);
+    known = node;
+  };
+  for (std::size_t i = 0; i < plan.signals.size(); ++i)
+    if (plan.signals[i].reads_motion())
+      for (const elements::Port& p : plan.signals[i].reading.ports) touch(i, p);
+  for (std::size_t id = 0; id < plan.directory.size(); ++id)
+    with_element(plan.elements, plan.directory[id], [&](const auto& e) {
+      for (const int s : signals_of(plan, id))
+        for (const elements::Port& p : e.ports) touch(static_cast<std::size_t>(s), p);
+    });
+}
+
 void Builder::say_idle_parts() {
   const std::size_t count = plan.nodes.size();
   Sets parts(count), rigid(count);
+  join_by_signals(parts);
   std::vector<bool> is_moved(count + 1, false);  // moved by a load, a spring under tension, a drive, its weight, or an
                                                  // initial velocity
   const bool has_gravity = lanes::dot(plan.gravity, plan.gravity) > 0.0;

@@ -22,6 +22,7 @@ struct LinkEdge {
   Vec3d axis = Vec3d::zero();  ///< axis of a joint, in the ground; zero: none
   bool is_joint = true;        ///< a joint of the scene; false: another part that constrains like a joint
   bool is_beam = false;        ///< a beam taken to be rigid
+  bool is_rod = false;         ///< a joint that joins points, whose line turns where its sides move across it
 };
 
 /// A set of connected parts, where the ground does not count as a connection.

@@ -56,7 +56,7 @@ SceneLinkage::SceneLinkage(const scene::Scene& scene, const scene::Poses& poses,
     is_massive[scene.nodes.size() + b] =
         choice.nothing_turns ? scene.bodies[b].mass > 0.0 : has_whole_inertia(scene.bodies[b]);
   for (const scene::Beam& b : scene.beams)
-    if (choice.mass_holds)
+    if (choice.mass_holds && !choice.beams_are_rigid)
       for (const std::string* end : {&b.start, &b.end})
         if (const auto place = place_of(*end)) is_massive[*place] = true;
   part_at_.assign(is_massive.size(), Linkage::ground);
@@ -78,9 +78,12 @@ SceneLinkage::SceneLinkage(const scene::Scene& scene, const scene::Poses& poses,
   for (const scene::Joint& j : scene.joints) add_joint(j);
   for (const scene::PrescribedMotion& m : scene.motions) add_motion(m);
   if (choice.stiffness_holds) add_stiffness();
+  if (choice.signals != SignalsHold::nothing) add_signals();
   if (choice.drives_hold) add_point_masses();
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     if (choice.mass_holds && !is_massive[scene.nodes.size() + b]) add_masses(scene.bodies[b]);
+  if (choice.mass_holds && choice.beams_are_rigid)
+    for (const scene::Beam& b : scene.beams) add_masses(b);
 }
 
 int SceneLinkage::add_part(const std::string& name) {
@@ -102,7 +105,8 @@ int SceneLinkage::part_of(const std::string& place) {
   const std::size_t dot_at = place.rfind('.');
   if (dot_at == std::string::npos) return Linkage::ground;
   const auto thing = poses_.find(std::string_view(place).substr(0, dot_at));
-  if (!thing || thing->kind != scene::ThingKind::beam || choice_.mass_holds) return Linkage::ground;
+  if (!thing || thing->kind != scene::ThingKind::beam) return Linkage::ground;
+  if (choice_.mass_holds && !choice_.beams_are_rigid) return Linkage::ground;
   if (choice_.beams_are_rigid) return part_of(scene_.beams[thing->index].start);
   const auto [inner, is_new] = part_of_inner_.try_emplace(place, Linkage::ground);
   if (is_new) {
@@ -118,21 +122,25 @@ void SceneLinkage::hold(const std::string& place, std::vector<Twist> rows) {
     linkage.add({Linkage::ground, part, place, std::move(rows), Vec3d::zero(), false});
 }
 
+Twist SceneLinkage::row_of(const scene::Joint& j, const scene::JointRow& row, const Frame& H_a,
+                           const Frame& H_b) const {
+  const auto gradient = scene::eval_row(row, j.pitch, motion::relative(H_a, H_b)).gradient;
+  const Vec3d force = H_b.R * lanes::linear_part(gradient), moment = H_b.R * lanes::angular_part(gradient);
+  const double unit = motion::traits_of(row.kind).is_length ? linkage.size() : 1.0;
+  return linkage.along(force, H_b.x) + (1.0 / unit) * Linkage::about(moment);
+}
+
 void SceneLinkage::add_joint(const scene::Joint& j) {
   const auto H_a = poses_.of(j.first), H_b = poses_.of(j.second);
   LinkEdge edge{part_of(j.first.to), part_of(j.second.to), j.name, {}, Vec3d::zero(), true};
   if (!H_a || !H_b || edge.first == edge.second) return;
   const scene::JointType& type = scene::type_of(j.kind);
-  const Frame H = motion::relative(*H_a, *H_b);
-  const auto hold_row = [&](const scene::JointRow& row) {
-    const auto gradient = scene::eval_row(row, j.pitch, H).gradient;
-    const Vec3d force = H_b->R * lanes::linear_part(gradient), moment = H_b->R * lanes::angular_part(gradient);
-    const double unit = motion::traits_of(row.kind).is_length ? linkage.size() : 1.0;
-    edge.rows.push_back(linkage.along(force, H_b->x) + (1.0 / unit) * Linkage::about(moment));
-  };
+  const auto hold_row = [&](const scene::JointRow& row) { edge.rows.push_back(row_of(j, row, *H_a, *H_b)); };
   const auto hold_coordinate = [&](const std::string& name) {
     if (const scene::JointCoordinate* coordinate = type.coordinate(name)) hold_row({coordinate->kind});
   };
+  edge.is_rod = std::any_of(type.rows.begin(), type.rows.end(),
+                            [](const scene::JointRow& row) { return row.kind == motion::RowKind::distance; });
   edge.rows.reserve(type.rows.size() + j.drives.size() + j.forces.size());
   if (type.has_common_axis()) edge.axis = axis_of(*H_a, 2);
   for (const scene::JointRow& row : type.rows) hold_row(row);
@@ -160,6 +168,7 @@ void SceneLinkage::add_motion(const scene::PrescribedMotion& m) {
 
 /// A spring under tension or compression also resists motions across its line.
 void SceneLinkage::add_stiffness() {
+  for (const scene::Joint& j : scene_.joints) add_lateral(j);
   for (const scene::Spring& s : scene_.springs) {
     const auto a = poses_.of(s.first), b = poses_.of(s.second);
     LinkEdge edge{part_of(s.first.to), part_of(s.second.to), s.name, {}, Vec3d::zero(), false};
@@ -241,6 +250,20 @@ void SceneLinkage::add_masses(const scene::Body& b) {
     rows.push_back(Linkage::about(row));
   }
   hold(b.name, std::move(rows));
+}
+
+/// The mass of a beam lies along its axis, and resists displacements of each of its points; its spin only with inertia of
+/// its sections about their axis.
+void SceneLinkage::add_masses(const scene::Beam& b) {
+  const auto axis = poses_.axis_of(b);
+  const auto section = std::find_if(scene_.sections.begin(), scene_.sections.end(),
+                                    [&b](const scene::Section& s) { return s.name == b.section; });
+  if (!axis || section == scene_.sections.end() || !(section->mass(0, 0) > 0.0)) return;
+  std::vector<Twist> rows;
+  for (const double at : {0.0, 0.5, 1.0})
+    for (int k = 0; k < 3; ++k) rows.push_back(linkage.along(Vec3d::unit(k), axis->at(at).x));
+  if (section->mass(3, 3) > 0.0) rows.push_back(Linkage::about(axis_of(axis->start, 0)));
+  hold(b.start, std::move(rows));
 }
 
 void SceneLinkage::restrict_to(Motions motions, const Vec3d& normal) {

@@ -1,5 +1,6 @@
 #pragma once
 /// Translates a scene to rigid parts and their connections. Internal to plan.
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,19 +14,30 @@
 
 namespace bough::plan {
 
+/// What forces that signals drive hold in statics. Their stiffness is the product of the directions in which they act
+/// and of the coordinates that their signals read, so that it resists a motion only if it moves along both. `reads`
+/// counts the coordinates as held, `acts` the directions; what either leaves free is free for certain.
+enum class SignalsHold : std::uint8_t { nothing, reads, acts };
+
 /// Which parts of a scene count as rigid connections.
 struct LinkageChoice {
   bool beams_are_rigid = true;  ///< false: beams are flexible and connect nothing
   /// Prescribed coordinates and motions that vary count as fixed, and so do rotations of point masses without effect.
   bool drives_hold = false;
   bool stiffness_holds = false;  ///< springs, bushings and springs in joints count as rigid
-  bool mass_holds = false;       ///< every motion with inertia counts as held, so that motions without inertia remain
-  bool nothing_turns = false;    ///< a mass is inertia enough to hold a body
+  SignalsHold signals = SignalsHold::nothing;
+  /// Every motion with inertia counts as held, so that motions without inertia remain. Beams that are not rigid then
+  /// count as massive at all their nodes.
+  bool mass_holds = false;
+  bool nothing_turns = false;  ///< a mass is inertia enough to hold a body
 };
 
 /// A linkage without parts, with the center and size of the box around all nodes and bodies and the places of all
 /// joints.
 Linkage empty_linkage(const scene::Scene& scene, const scene::Poses& poses);
+
+/// Signals of places and forces, as indices, on which forces depend that signals drive.
+std::vector<std::size_t> places_read_by_forces(const scene::Scene& scene);
 
 class SceneLinkage {
  public:
@@ -39,6 +51,9 @@ class SceneLinkage {
   std::vector<std::string> names;         ///< by part; that of the ground is empty
   std::vector<bool> has_beam;             ///< by part
   int part_of(const std::string& place);  ///< part of a place; frames belong to the ground
+  /// The row of a coordinate of a joint. H_a, H_b: poses of its frames.
+  Twist row_of(const scene::Joint& j, const scene::JointRow& row, const motion::Frame<double>& H_a,
+               const motion::Frame<double>& H_b) const;
 
  private:
   int add_part(const std::string& name);
@@ -47,8 +62,14 @@ class SceneLinkage {
   void add_joint(const scene::Joint& j);
   void add_motion(const scene::PrescribedMotion& m);
   void add_stiffness();
+  void add_signals();
+  void add_reading(const scene::Signal& signal);
+  void add_action(const std::string& place, const Vec3d& x, const Vec3d& force, const Vec3d& moment);
+  void add_load(const scene::PointLoad& load);
+  void add_lateral(const scene::Joint& joint);
   void add_point_masses();
   void add_masses(const scene::Body& b);
+  void add_masses(const scene::Beam& b);
   void hold(const std::string& place, std::vector<Twist> rows);
 
   const scene::Scene& scene_;

@@ -253,6 +253,7 @@ void Builder::list_given_velocities() {
       continue;
     }
     plan.given_velocities.push_back({v.of, node_of.at(v.of)});
+    plan.given_velocities.back().has_angular = v.has_angular_velocity;
     if (const auto offset = part_offset.find(v.of); offset != part_offset.end())
       plan.given_velocities.back().offset = offset->second;
   }
@@ -435,6 +436,7 @@ Plan make_plan(const scene::Scene& scene) {
   b.add_signals();
   b.find_points();
   b.add_initial_velocities();
+  b.turn_points_with_their_parts();
   b.stop_spins();
   b.plan.length_scale = b.size_of_structure();
   b.measure_joints();
@@ -445,11 +447,12 @@ Plan make_plan(const scene::Scene& scene) {
   b.number_elements();
   b.choose_unknowns();
   b.leave_out_rotations_of_points();
+  b.find_massless_rotations();
   b.hold_nodes();
   b.settle();
+  b.list_signals_of_elements();
   b.say_idle_parts();
   b.find_mobility();
-  b.list_signals_of_elements();
   b.make_graph();
   b.add_sensors();
   b.list_turning_joints();

@@ -7,68 +7,17 @@
 #include <cstdio>
 #include <map>
 
-#include "bough/plan/undriven.hpp"
-#include "bough/scene/analysis_kinds.hpp"
 #include "geometry.hpp"
 #include "linkage_of.hpp"
 #include "listed.hpp"
+#include "mobility_texts.hpp"
 #include "plan_builder.hpp"
 
 namespace bough::plan {
 
 namespace {
 
-constexpr double still = 1e-7;          ///< relative: smaller twists are round-off of null vectors
-constexpr std::size_t told = 4;         ///< largest number of notes of one kind
 constexpr std::size_t most_tried = 40;  ///< largest number of joints that are tried as the cause of a locked mechanism
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-std::string vector_text(const Vec3d& v, double round_off) {
-  std::string text = "(";
-  for (int k = 0; k < 3; ++k) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%s%.4g", k == 0 ? "" : ", ", std::abs(v[k]) <= round_off ? 0.0 : v[k]);
-    text += number;
-  }
-  return text + ")";
-}
-
-/// "turn about the axis (0, 0, 1) through (0, 0, 0) m" or "move along (1, 0, 0)".
-std::string motion_text(const Linkage& linkage, const Twist& t) {
-  const Vec3d v{{t[0], t[1], t[2]}}, w{{t[3], t[4], t[5]}};
-  const double turning = length_of(w);
-  if (turning <= still * t.norm()) return "move along " + vector_text((1.0 / length_of(v)) * v, 1e-9);
-  const Vec3d axis = (1.0 / turning) * w;
-  const Vec3d x = linkage.center() + (linkage.size() / turning) * lanes::cross(axis, v);
-  const Vec3d nearest = x - lanes::dot(x, axis) * axis;  // point of the axis closest to the origin
-  return "turn about the axis " + vector_text(axis, 1e-9) + " through " + vector_text(nearest, 1e-9 * linkage.size()) +
-         " m";
-}
-
-/// Describes a motion: which parts move, how, and at which joints.
-std::string describe(const SceneLinkage& s, const LinkComponent& c, Eigen::Index motion, const char* between) {
-  double most = 0.0;
-  int largest = c.parts.front();
-  for (const int part : c.parts)
-    if (const double size = c.twist_of(part, motion).norm(); size > most * (1.0 + 1e-9)) {
-      most = size;
-      largest = part;
-    }
-  std::vector<std::string> moving, joints;
-  const auto moves = [&](int part) { return c.twist_of(part, motion).norm() > still * most; };
-  for (const int e : c.edges) {
-    const LinkEdge& edge = s.linkage.edges()[at(e)];
-    if (edge.is_beam && moves(edge.second)) moving.push_back(edge.name);
-    const Twist relative = c.twist_of(edge.second, motion) - c.twist_of(edge.first, motion);
-    if (edge.is_joint && relative.norm() > still * most) joints.push_back(edge.name);
-  }
-  for (const int part : c.parts)  // nodes of beams are included in these
-    if (!s.has_beam[at(part)] && moves(part)) moving.push_back(s.names[at(part)]);
-  std::string text = listed(moving) + between + motion_text(s.linkage, c.twist_of(largest, motion));
-  if (!joints.empty()) text += " at joint" + std::string(joints.size() > 1 ? "s " : " ") + listed(joints);
-  return text;
-}
 
 std::vector<std::string> find_massless(const SceneLinkage& s) {
   std::vector<std::string> texts;
@@ -79,23 +28,41 @@ std::vector<std::string> find_massless(const SceneLinkage& s) {
   return texts;
 }
 
-/// Names of the beams, and of the nodes and bodies that belong to no beam.
-std::vector<std::string> names_in(const SceneLinkage& s, const LinkComponent& c) {
-  std::vector<std::string> names;
-  for (const int e : c.edges)
-    if (s.linkage.edges()[at(e)].is_beam) names.push_back(s.linkage.edges()[at(e)].name);
-  for (const int part : c.parts)
-    if (!s.has_beam[at(part)]) names.push_back(s.names[at(part)]);
-  return names;
+/// Parts on which weights and loads act. Such a force resists or drives what turns under it, or what moves across a rod
+/// that it loads, although it is no stiffness of its own.
+std::vector<bool> loaded_parts(const scene::Scene& scene, SceneLinkage& s) {
+  std::vector<bool> is_loaded(s.names.size(), false);
+  const auto load = [&](const std::string& place) {
+    const int part = s.part_of(place);
+    if (at(part) < is_loaded.size()) is_loaded[at(part)] = true;
+  };
+  const bool has_weight = lanes::dot(scene.gravity, scene.gravity) > 0.0 || !scene.analysis.frame.empty();
+  for (const scene::Body& b : scene.bodies)
+    if (has_weight && b.mass > 0.0) load(b.name);
+  for (const scene::Beam& b : scene.beams)
+    if (has_weight) load(b.start);
+  for (const scene::PointLoad& l : scene.point_loads) load(l.at.to);
+  for (const scene::LineLoad& l : scene.line_loads)
+    for (const scene::Beam& b : scene.beams)
+      if (b.name == l.beam) load(b.start);
+  return is_loaded;
 }
 
-std::vector<std::string> find_free(const SceneLinkage& s) {
+std::vector<std::string> find_free(const scene::Scene& scene, SceneLinkage& s) {
   std::vector<std::string> texts;
+  const std::vector<bool> is_loaded = loaded_parts(scene, s);
+  const auto loads_resist = [&](const LinkComponent& c, Eigen::Index motion) {
+    if (std::none_of(c.parts.begin(), c.parts.end(), [&](int part) { return is_loaded[at(part)]; })) return false;
+    return std::any_of(c.parts.begin(), c.parts.end(),
+                       [&](int part) { return c.twist_of(part, motion).tail<3>().norm() > still; }) ||
+           std::any_of(c.edges.begin(), c.edges.end(), [&](int e) { return s.linkage.edges()[at(e)].is_rod; });
+  };
   for (const LinkComponent& c : s.linkage.solve(MotionsOf::all)) {
     if (!c.reaches_ground && texts.size() < told)
       texts.push_back("in statics nothing holds " + listed(names_in(s, c)) + ": nothing joins it to the ground");
     for (Eigen::Index k = 0; c.reaches_ground && k < c.motions.cols() && texts.size() < told; ++k)
-      texts.push_back("in statics nothing holds " + describe(s, c, k, ", which can "));
+      texts.push_back(std::string("in statics nothing ") + (loads_resist(c, k) ? "but loads can hold " : "holds ") +
+                      describe(s, c, k, ", which can "));
   }
   return texts;
 }
@@ -195,30 +162,6 @@ std::vector<std::string> find_locked(const SceneLinkage& s) {
 
 }  // namespace
 
-std::vector<std::string> undriven_motions(const scene::Scene& scene, const Plan& plan) {
-  const scene::AnalysisType& analysis = scene::type_of(scene.analysis.kind);
-  if (!plan.is_dynamic || analysis.integrates) return {};
-  std::vector<std::string> texts;
-  const auto add = [&texts](const std::string& text) {
-    if (texts.size() < told) texts.push_back(text);
-  };
-  const std::string asked = std::string(analysis.title) + " takes a motion that drives prescribe completely, but ";
-  const scene::Poses poses(scene);
-  // In space: what the plan leaves out could move.
-  const SceneLinkage driven(scene, poses, empty_linkage(scene, poses), {.drives_hold = true});
-  for (const LinkComponent& c : driven.linkage.solve(MotionsOf::all)) {
-    if (!c.reaches_ground) add(asked + "nothing joins " + listed(names_in(driven, c)) + " to the ground");
-    for (Eigen::Index k = 0; c.reaches_ground && k < c.motions.cols(); ++k)
-      add(asked + describe(driven, c, k, " can still ") + "; drive that");
-  }
-  for (const scene::Beam& b : scene.beams)
-    add(asked + "beam '" + b.name + "' bends as its loads ask for; take rigid bodies for it");
-  for (const scene::Signal& signal : scene.signals)
-    if (signal.kind == scene::SignalKind::state)
-      add(asked + "the state '" + signal.name + "' follows from its past; give it as a law of time");
-  return texts;
-}
-
 int Mobility::degrees_of_freedom() const {
   int sum = 0;
   for (const MobilityPart& p : parts) sum += p.degrees_of_freedom();
@@ -240,8 +183,23 @@ void Builder::find_mobility() {
                           {.beams_are_rigid = false, .drives_hold = true, .mass_holds = true, .nothing_turns = !turns});
     massless.restrict_to(plan.unknowns.motions, lanes::column(plan.axes, 2));
     m.massless = find_massless(massless);
+    if (plan.has_massless_rotations) {  // those that beams do not resist by their stiffness either
+      SceneLinkage spins(scene, poses, empty,
+                         {.drives_hold = true, .stiffness_holds = true, .mass_holds = true, .nothing_turns = !turns});
+      spins.restrict_to(plan.unknowns.motions, lanes::column(plan.axes, 2));
+      for (std::string& text : find_massless(spins))
+        if (std::find(m.massless.begin(), m.massless.end(), text) == m.massless.end())
+          m.massless.push_back(std::move(text));
+    }
   } else {
-    m.free = find_free(SceneLinkage(scene, poses, empty, {.drives_hold = true, .stiffness_holds = true}));
+    const bool has_signals = !places_read_by_forces(scene).empty();
+    for (const SignalsHold signals : {SignalsHold::reads, SignalsHold::acts}) {
+      SceneLinkage held(
+          scene, poses, empty,
+          {.drives_hold = true, .stiffness_holds = true, .signals = has_signals ? signals : SignalsHold::nothing});
+      m.free = find_free(scene, held);
+      if (!has_signals || !m.free.empty()) break;
+    }
   }
   for (const auto* list : {&m.locked, &m.free, &m.massless})
     plan.notes.insert(plan.notes.end(), list->begin(), list->end());

@@ -37,6 +37,8 @@ struct SpaceLoad {
   int law = 0;
 };
 
+class Sets;
+
 struct Builder {
   explicit Builder(const scene::Scene& scene);
 
@@ -57,6 +59,7 @@ struct Builder {
                                                              ///< is welded
   std::vector<std::pair<int, motion::Vec3<double>>> spinless;  ///< nodes that do not spin about a line of their own
                                                                ///< axes
+  std::vector<std::string> held_at_lines;                      ///< names of these point masses
 
   template <class E>
   std::vector<std::string>& owners() {
@@ -101,6 +104,7 @@ struct Builder {
   void find_points();
   void keep_from_spinning(std::size_t body, const std::vector<motion::Vec3<double>>& met);
   void add_initial_velocities();
+  void turn_points_with_their_parts();
   void list_given_velocities();
   void stop_spins();
   void list_attachments();
@@ -115,15 +119,18 @@ struct Builder {
   /// Records a decision: it is taken if its condition holds and the scene does not bar it.
   void decide(const std::string& name, const std::string& what, bool holds, const std::string& reason);
   void settle();
+  void join_by_signals(Sets& parts) const;
   void say_idle_parts();
   void find_mobility();
   void choose_unknowns();
   /// Once it is known in which motions the scene can move.
   void leave_out_rotations_of_points();
+  void find_massless_rotations();
   void hold_nodes();
   void add_reduced_model(const motion::Mat3<double>& axes);
   void list_signals_of_elements();
   void make_graph();
+  std::vector<int> elements_with_force(const std::string& part) const;
   void add_sensors();
   void list_turning_joints();
 };

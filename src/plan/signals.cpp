@@ -30,6 +30,7 @@ SignalRule rule_of(scene::SignalKind kind) {
       return SignalRule::state;
     case Kind::joint_effort:
     case Kind::spring_tension:
+    case Kind::force:
       return SignalRule::effort;
     case Kind::surface:
       return SignalRule::surface;
@@ -104,6 +105,7 @@ void Builder::add_signals() {
   const auto given = by_name(scene.signals);
   const auto joints = by_name(scene.joints);
   const auto springs = by_name(scene.springs);
+  const auto motions = by_name(scene.motions);
   for (SignalPlan& p : plan.signals) {
     const scene::Signal& s = *given.at(p.name);
     for (const std::string& input : s.inputs) p.inputs.push_back(law_of_signal.at(input));
@@ -124,6 +126,17 @@ void Builder::add_signals() {
       read_effort(*joint,
                   array_of<elements::Joint>(plan.elements)[static_cast<std::size_t>(plan.joints[index].element)],
                   scene::coordinate_of(s, scene::type_of(joint->kind))->kind, p);
+      continue;
+    }
+    if (s.kind == scene::SignalKind::force) {
+      const scene::PrescribedMotion* motion = motions.at(s.part);
+      const scene::ForceRow row = scene::force_row(*motion, s.coordinate).value();
+      p.joint_name = s.part;
+      p.reading.ports[0] = port_at("ground", {Mat3<double>::identity(), poses.of(motion->at)->x});
+      p.reading.ports[1] = port_at(motion->at);
+      if (row.turns) read.coordinate = motion::RowKind::angle;
+      p.row = row.row;
+      plan.signals_read_multipliers = true;
       continue;
     }
     if (s.kind == scene::SignalKind::spring_tension) {
@@ -228,11 +241,18 @@ void Builder::list_signals_of_elements() {
     return;
   }
   plan.signal_of_law.resize(plan.laws.size(), -1);
-  std::unordered_map<std::string_view, int> place_of_joint;
-  for (std::size_t j = 0; j < plan.joints.size(); ++j) place_of_joint[plan.joints[j].name] = static_cast<int>(j);
-  for (SignalPlan& p : plan.signals)
-    if (const auto place = place_of_joint.find(p.joint_name); !p.joint_name.empty() && place != place_of_joint.end())
+  std::unordered_map<std::string_view, int> first_of,
+      last_of;  // a prescribed motion has one that shifts and one that turns
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    first_of.emplace(plan.joints[j].name, static_cast<int>(j));
+    last_of[plan.joints[j].name] = static_cast<int>(j);
+  }
+  for (SignalPlan& p : plan.signals) {
+    const bool turns = motion::traits_of(p.reading.efforts[0].coordinate).has_angle;
+    const auto& place_of = turns ? last_of : first_of;
+    if (const auto place = place_of.find(p.joint_name); !p.joint_name.empty() && place != place_of.end())
       p.joint = place->second;
+  }
   for (const elements::Joint& e : array_of<elements::Joint>(plan.elements))
     for (int k = 0; k < e.num_rows; ++k) plan.signals_drive |= e.rows[k].law >= 0 && is_signal(e.rows[k].law);
   plan.signals_of_element.resize(plan.directory.size());

@@ -82,9 +82,11 @@ class Welder {
  public:
   explicit Welder(Builder& b) : b_(b), plan_(b.plan), parts_(b.plan.nodes.size()), loops_(b.plan.nodes.size()) {
     for (const scene::Sensor& s : b.scene.sensors)
-      if (!s.joint.empty()) asked_.insert(s.joint);
+      for (const std::string* name : {&s.joint, &s.part})
+        if (!name->empty()) asked_.insert(*name);
     for (const scene::Signal& s : b.scene.signals)
-      if (scene::reads_reaction(s)) asked_.insert(s.joint);
+      if (scene::reads_reaction(s) || s.kind == scene::SignalKind::force)
+        asked_.insert(s.part.empty() ? s.joint : s.part);
     if (asked_.empty()) return;
     loops_ = loops_of_joints(plan_);
     for (std::size_t j = 0; j < plan_.joints.size(); ++j)

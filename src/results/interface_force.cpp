@@ -5,11 +5,13 @@
 
 #include "bough/elements/evaluate.hpp"
 #include "bough/step/linear_solution.hpp"
+#include "observe_parts.hpp"
 
 namespace bough::results {
 
 using elements::Field;
 using elements::Port;
+using motion::Frame;
 using motion::Vec3;
 using motion::Vec6;
 
@@ -96,6 +98,59 @@ Vec6<double> eval_interface_force(const step::System& system, const step::State&
     });
   }
   return lanes::join(force, moment);
+}
+
+namespace {
+
+/// Wrench in the ground about a place, as minus the residual at one port of an element.
+Vec6<double> wrench_on(const Port& port, const double* residual, const Field& field, const Vec3<double>& about) {
+  const elements::NodeMotion& node = field.nodes[port.node];
+  const Vec3<double> f = node.R * Vec3<double>{{-residual[0], -residual[1], -residual[2]}};
+  const Vec3<double> m = node.R * Vec3<double>{{-residual[3], -residual[4], -residual[5]}};
+  return lanes::join(f, Vec3<double>(m + lanes::cross(Vec3<double>(node.x.hi + node.x.lo - about), f)));
+}
+
+/// Adds the wrench of one element: of a load on all its nodes, of a connection on its second.
+template <class E>
+void add_force(const E& e, const double* residual, const Field& field, PartForce& force,
+               std::optional<Vec3<double>>& about) {
+  const auto pose_of = [&field](const Port& port) { return motion_of_port(port, field).pose; };
+  constexpr bool is_load = E::role == elements::Role::load;
+  const Port& place = is_load ? *std::begin(e.ports) : *std::prev(std::end(e.ports));
+  const Frame<double> pose = pose_of(place);
+  if (!about) {
+    about = pose.x;
+    force.axes = pose.R;
+  }
+  const double sign = is_load || place.node != elements::ground ? 1.0 : -1.0;
+  const double* own = residual;
+  for (const Port& port : e.ports) {
+    if (port.node == elements::ground) continue;
+    if (is_load || &port == &place || sign < 0.0) force.wrench += sign * wrench_on(port, own, field, *about);
+    own += 6;
+  }
+}
+
+}  // namespace
+
+PartForce eval_part_force(const step::System& system, const step::State& state, const Field& field,
+                          std::span<const int> part) {
+  const plan::Plan& plan = system.plan();
+  PartForce force;
+  std::optional<Vec3<double>> about;
+  for (const int element : part) {
+    const auto id = static_cast<std::size_t>(element);
+    const int joint = plan.joint_of_element[id];
+    const double* multipliers =
+        joint < 0 ? nullptr : state.multipliers.data() + plan.joints[static_cast<std::size_t>(joint)].multiplier_begin;
+    plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
+      std::array<double, most> residual;
+      eval_residual_at(e, field, multipliers, joint < 0 ? 0.0 : state.turns[static_cast<std::size_t>(joint)], state,
+                       residual.data());
+      add_force(e, residual.data(), field, force, about);
+    });
+  }
+  return force;
 }
 
 std::optional<std::string> unknown_subdomain(const step::System& system) {

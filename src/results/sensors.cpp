@@ -158,6 +158,14 @@ constexpr Kernel kernels[] = {
        append(to,
               eval_interface_force(l.system, l.state, l.field, subdomain_at(l.system.linear().tree(), s.subdomain)));
      }},
+    {scene::SensorKind::force,
+     [](Look& l, const SensorPlan& s, Values& to) {
+       const PartForce force = eval_part_force(l.system, l.state, l.field, s.elements);
+       const motion::Mat3<double> seen = s.sensor.axes == scene::LoadAxes::body ? force.axes
+                                         : s.sensor.frame.empty()               ? motion::Mat3<double>::identity()
+                                                                  : motion_of_port(s.frame, l.field).pose.R;
+       append(to, turned(lanes::transpose(seen), force.wrench));
+     }},
 };
 constexpr bool is_in_order() {
   for (std::size_t k = 0; k < std::size(kernels); ++k)
@@ -242,6 +250,7 @@ void append_nodes_of(const plan::Plan& plan, const plan::SensorPlan& sensor, std
   } else {
     add(sensor.port);
   }
+  for (const int id : sensor.elements) add_element(id);
   add(sensor.frame);
 }
 

@@ -19,7 +19,8 @@ double speed_of(const Vec6<double>& twist, double length) {
 
 }  // namespace
 
-std::vector<records::ChangedVelocity> changed_velocities(const plan::Plan& plan, const step::State& start) {
+std::vector<records::ChangedVelocity> changed_velocities(const plan::Plan& plan, const step::State& start,
+                                                         const std::vector<elements::NodeMotion>& moved) {
   const std::vector<elements::NodeMotion>& nodes = step::nodes_in_space(plan, start);
   double speed = 0.0;
   for (std::size_t n = 0; n < plan.nodes.size(); ++n)
@@ -39,11 +40,12 @@ std::vector<records::ChangedVelocity> changed_velocities(const plan::Plan& plan,
   };
   for (const plan::GivenVelocity& given : plan.given_velocities) {
     const auto n = static_cast<std::size_t>(given.node);
-    const motion::Mat3<double> R = plan.nodes[n].pose.R * given.offset.R;
-    const Vec6<double> asked = motion::inverse_adjoint_times(given.offset, plan.nodes[n].twist),
+    const motion::Mat3<double> R = (moved.empty() ? plan.nodes[n].pose.R : moved[n].R) * given.offset.R;
+    const Vec6<double>& given_twist = moved.empty() ? plan.nodes[n].twist : moved[n].v;
+    const Vec6<double> asked = motion::inverse_adjoint_times(given.offset, given_twist),
                        got = motion::inverse_adjoint_times(given.offset, nodes[n].v);
     compare(given.of, false, R * lanes::linear_part(asked), R * lanes::linear_part(got));
-    compare(given.of, true, R * lanes::angular_part(asked), R * lanes::angular_part(got));
+    if (given.has_angular) compare(given.of, true, R * lanes::angular_part(asked), R * lanes::angular_part(got));
   }
   std::stable_sort(changed.begin(), changed.end(), [](const auto& a, const auto& b) { return a.change > b.change; });
   return changed;

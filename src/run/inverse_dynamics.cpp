@@ -26,7 +26,10 @@ class InverseDynamics final : public Analysis {
   std::unique_ptr<Analysis> clone() const override { return std::make_unique<InverseDynamics>(*this); }
 
   bool begin() override {
-    if (const auto undriven = plan::undriven_motions(scene_, plan_); !undriven.empty()) return fail(undriven.front());
+    if (const auto undriven = plan::undriven_motions(scene_, plan_); !undriven.empty()) return fail(one_text(undriven));
+    const plan::IdleMotions idle = plan::idle_motions(scene_, plan_);
+    if (idle.count > 0) note(idle.note);
+    allowed_ = idle.count;
     if (!close(state_, state_.time, scene_.analysis.step_size)) return fail(cause_);
     if (moved_ > slack)
       note("the start was moved by up to " + io::rounded_text(moved_, 3) +
@@ -53,6 +56,18 @@ class InverseDynamics final : public Analysis {
     step::StepReport report;
     report.converged = true;
     return report;
+  }
+
+  /// All texts: the first whole, of the others what follows the words that all begin with.
+  static std::string one_text(const std::vector<std::string>& texts) {
+    constexpr std::size_t most = 12;
+    const std::string common = ", but ";
+    std::string text = texts.front();
+    for (std::size_t i = 1; i < std::min(most, texts.size()); ++i) {
+      const std::size_t at = texts[i].find(common);
+      text += "; and " + texts[i].substr(at == std::string::npos ? 0 : at + common.size());
+    }
+    return texts.size() > most ? text + "; and " + std::to_string(texts.size() - most) + " more" : text;
   }
 
   double end() const { return scene_.analysis.end_time; }
@@ -102,6 +117,8 @@ class InverseDynamics final : public Analysis {
   /// Makes the state that of a time: its left limit, but at the start.
   bool close(step::State& state, double time, double size) {
     state.time = time;
+    // Motions without effect get the least velocities with which the constraints hold, whatever they were before.
+    if (allowed_ > 0) step::set_at_rest(state);
     const step::StartReport report =
         step::make_consistent_on(system_, state, true, size, time > 0.0 ? laws::Side::left : laws::Side::right);
     cause_ = report.cause;
@@ -124,8 +141,11 @@ class InverseDynamics final : public Analysis {
     const auto rows = static_cast<long>(places.multipliers().size());
     const long of_nodes = static_cast<long>(places.size() - places.signals().size()) - rows;
     const long left = of_nodes - (rows - dependent_rows());
-    if (left > 0)
-      return fail("at time " + io::rounded_text(state_.time, 6) + " drives and joints leave " + std::to_string(left) +
+    if (!has_begun_) allowed_ = std::min(allowed_, left);  // reduced models have no motions out of their plane
+    has_begun_ = true;
+    if (left > allowed_)
+      return fail("at time " + io::rounded_text(state_.time, 6) + " drives and joints leave " +
+                  std::to_string(left - allowed_) +
                   " motion(s) free: the mechanism passes a singular position there, from which it can go on in more "
                   "than one way");
     if (interval > 0.0) account().count(reached(), state_);
@@ -162,6 +182,8 @@ class InverseDynamics final : public Analysis {
     return of_rank_->factor(system_.walker()).deficiency;
   }
 
+  long allowed_ = 0;  ///< number of motions without effect that drives leave free
+  bool has_begun_ = false;
   std::shared_ptr<solve::Hierarchical> of_rank_;  ///< made where it is needed; its contents are scratch
   long intervals_, next_ = 1;                     ///< of the step size up to the end, and the end of the next one
   std::vector<double> stops_;

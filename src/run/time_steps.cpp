@@ -12,6 +12,7 @@
 #include "not_judged.hpp"
 #include "stability_watch.hpp"
 #include "trust.hpp"
+#include "turning_start.hpp"
 
 namespace bough::run {
 
@@ -49,7 +50,15 @@ bool TimeSteps::begin() {
 }
 
 bool TimeSteps::begin_in_equilibrium() {
-  const step::EquilibriumReport rest = step::find_equilibrium(system_, state_, options_, scene_.analysis.step_size);
+  const std::optional<scene::Spin> spin = spin_at_start(scene_, plan_);
+  if (!spin && scene_.analysis.frame.empty())
+    if (const auto frames = scene::velocities_of_frames(scene_, scene::Poses(scene_)); !frames || !frames->empty())
+      return fail(
+          "there is no equilibrium to start from: frames turn at time 0, and not all of the structure can turn with "
+          "them; describe the analysis in that frame, or leave out start");
+  const step::EquilibriumReport rest =
+      spin ? find_turning_equilibrium(scene_, plan_, *spin, options_, state_)
+           : step::find_equilibrium(system_, state_, options_, scene_.analysis.step_size);
   account().newton_iterations() += rest.iterations;
   if (!rest.found) return fail("there is no equilibrium to start from: " + rest.cause);
   char text[200];
@@ -58,7 +67,13 @@ bool TimeSteps::begin_in_equilibrium() {
                 "structure, or rad (%d steps, %d Newton iterations)",
                 rest.moved, rest.steps, rest.iterations);
   note(text);
-  note_unstable_start();
+  if (spin)
+    note("all turns at " + io::rounded_text(spin->rate, 6) +
+         " rad/s about one axis at the start: the equilibrium is that relative to this rotation, with its centrifugal "
+         "forces");
+  else
+    note_unstable_start();
+  asked_ = step::nodes_in_space(plan_, state_);
   return true;
 }
 
@@ -118,7 +133,7 @@ bool TimeSteps::start_integrator(double step_size) {
   account().watch_dependent_rows(state_.time);
   if (is_first() && consistent.position_correction > 1e-9) note_moved_start(consistent);
   if (is_first()) {
-    summary().changed_velocities = changed_velocities(plan_, state_);
+    summary().changed_velocities = changed_velocities(plan_, state_, asked_);
     if (!summary().changed_velocities.empty()) note(describe(summary().changed_velocities));
   }
   if (consistent.velocity_change > 1e-9) {

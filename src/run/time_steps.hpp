@@ -91,6 +91,8 @@ class TimeSteps : public Analysis {
   bool has_jump_ = false;                   ///< an input was changed at the present time
   step::State tried_;                       ///< start of the first attempt of a failed step
   std::optional<ReactionWatch> reactions_;  ///< if checks are made and sensors show reactions
+  std::vector<elements::NodeMotion>
+      asked_;  ///< nodes with their velocities, of a start that was moved to an equilibrium
   std::vector<double> values_before_, values_now_, values_displaced_;  ///< of motion sensors when an error is measured
 };
 

@@ -41,6 +41,9 @@ struct ProblemList {
   /// Checks a reference into a list of names. True if the name exists.
   bool check_reference(const char* section, std::size_t index, const std::string& key, const std::string& name,
                        const std::vector<std::string>& known, const char* what);
+  /// The same for names of several lists together.
+  bool check_known(const char* section, std::size_t index, const std::string& key, const std::string& name,
+                   const std::vector<std::string>& known, const char* what);
   /// Checks the name of a frame; the ground is allowed.
   bool check_frame(const char* section, std::size_t index, const std::string& frame);
   /// Checks that a law is finite over the analysis, with its derivatives if it prescribes a motion.
@@ -83,6 +86,7 @@ void check_loads(ProblemList& list);
 void check_motions(ProblemList& list);
 void check_initial_velocities(ProblemList& list);
 void check_magnitudes(ProblemList& list);
+void check_units(ProblemList& list);
 void check_signals(ProblemList& list);
 void check_sensors(ProblemList& list);
 void check_analysis(ProblemList& list);

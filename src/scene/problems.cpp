@@ -132,6 +132,13 @@ bool ProblemList::check_reference(const char* section, std::size_t index, const 
     add(section, index, key, name, std::string("this is not a ") + what);
     return false;
   }
+  return check_known(section, index, key, name, known, what);
+}
+
+bool ProblemList::check_known(const char* section, std::size_t index, const std::string& key, const std::string& name,
+                              const std::vector<std::string>& known, const char* what) {
+  if (is_defective(name)) return false;
+  if (std::find(known.begin(), known.end(), name) != known.end()) return true;
   const std::string near = nearest(name, known);
   std::string hint = !near.empty()   ? "did you mean \"" + near + "\"?"
                      : known.empty() ? std::string("the scene has no ") + what
@@ -266,6 +273,7 @@ std::vector<SceneProblem> problems_in(const Scene& scene, std::span<const std::s
   check_motions(list);
   if (defective.empty()) check_initial_velocities(list);
   check_magnitudes(list);
+  check_units(list);
   check_signals(list);
   check_sensors(list);
   check_analysis(list);

@@ -110,20 +110,6 @@ void check_places(ProblemList& list) {
   }
 }
 
-/// Finds bodies whose radius of gyration is far larger than the distance to anything attached to them.
-void check_gyration(ProblemList& list, std::size_t i) {
-  constexpr double far_beyond = 50.0, least = 10.0;
-  const Body& b = list.scene.bodies[i];
-  const double trace = b.inertia(0, 0) + b.inertia(1, 1) + b.inertia(2, 2);
-  if (!(b.mass > 0.0) || !(trace > 0.0)) return;
-  const double radius = std::sqrt(0.5 * trace / b.mass);
-  if (radius > least && radius > far_beyond * list.size)
-    list.warn("bodies", i, "inertia", b.name,
-              "its radius of gyration, sqrt(inertia / mass), is " + text_of(radius) + " m in a scene of " +
-                  text_of(list.size) + " m",
-              "units are SI: kg m^2");
-}
-
 /// Finds sections whose axial stiffness exceeds the bending stiffness so much that bending is lost in round-off.
 void check_slenderness(ProblemList& list, std::size_t i) {
   constexpr double digits = 1e18;  // twice those of a number: slender to 1e9
@@ -146,7 +132,6 @@ void check_magnitudes(ProblemList& list) {
   check_load_sizes(list);
   check_stiffness_sizes(list);
   check_places(list);
-  for (std::size_t i = 0; i < list.scene.bodies.size(); ++i) check_gyration(list, i);
   for (std::size_t i = 0; i < list.scene.beams.size(); ++i) check_slenderness(list, i);
 }
 

@@ -5,6 +5,7 @@
 #include "bough/scene/analysis_kinds.hpp"
 #include "bough/scene/moving_frame.hpp"
 #include "bough/scene/nearest_name.hpp"
+#include "bough/scene/spin.hpp"
 #include "problem_list.hpp"
 
 namespace bough::scene {
@@ -52,6 +53,22 @@ void check_coordinate(ProblemList& list, std::size_t i, const JointType& joint) 
   }
 }
 
+/// Names of prescribed motions, springs, bushings and loads. A spring with laws of its own is a strut.
+std::vector<std::string> parts_with_forces(const Scene& scene) {
+  std::vector<std::string> names;
+  const auto add_names = [&names](const auto& items) {
+    for (const auto& item : items) names.push_back(item.name);
+  };
+  add_names(scene.motions);
+  add_names(scene.springs);
+  add_names(scene.bushings);
+  add_names(scene.point_loads);
+  add_names(scene.line_loads);
+  for (const Joint& j : scene.joints)
+    if (j.kind == JointKind::strut) names.push_back(j.name);
+  return names;
+}
+
 void check_sensor(ProblemList& list, std::size_t i) {
   const Sensor& s = list.scene.sensors[i];
   const SensorType& type = type_of(s.kind);
@@ -77,9 +94,14 @@ void check_sensor(ProblemList& list, std::size_t i) {
       list.add("sensors", i, "station", text_of(s.station), "a station is a fraction of the beam's length, 0 to 1");
     return;
   }
-  if (type.of == SensorOf::reaction && !s.frame.empty() && s.axes == LoadAxes::body)
+  const bool is_of_part = type.of == SensorOf::part;
+  if ((type.of == SensorOf::reaction || is_of_part) && !s.frame.empty() && s.axes == LoadAxes::body)
     list.add("sensors", i, "frame", s.frame, "a reaction is given in the axes of the body or of a frame, not of both",
              "leave one of \"axes\" and \"frame\" out");
+  if (is_of_part) {
+    list.check_known("sensors", i, "of", s.part, parts_with_forces(list.scene), "motion, spring, bushing or load");
+    return;
+  }
   const bool exists = list.check_reference("sensors", i, "joint", s.joint, list.joints, "joint");
   if (exists && type.of == SensorOf::coordinate)
     check_coordinate(list, i, type_of(list.scene.joints[list.poses.find(s.joint)->index].kind));
@@ -228,18 +250,23 @@ void check_sensors(ProblemList& list) {
 
 namespace {
 
-/// In an equilibrium of the start all frames but those that carry the analysis are at rest.
+/// In an equilibrium of the start all frames but those that carry the analysis are at rest, or all that move turn as one
+/// about a fixed axis: what they carry is then in equilibrium relative to them.
 void check_start(ProblemList& list) {
   if (list.scene.analysis.start != StartKind::equilibrium) return;
+  const auto velocities = velocities_of_frames(list.scene, list.poses);
+  if (velocities && list.scene.analysis.frame.empty() && spin_of(*velocities)) return;
   const std::vector<std::size_t>& carrying = list.poses.frames().above_ground();
   for (std::size_t i = 0; i < list.scene.frames.size(); ++i) {
     const FrameDef& f = list.scene.frames[i];
     if (!f.motion || std::find(carrying.begin(), carrying.end(), i) != carrying.end()) continue;
     const motion::FrameMotion m = motion_at(*f.motion, 0.0);
     if (lanes::dot(m.velocity, m.velocity) > 0.0 || lanes::dot(m.angular_velocity, m.angular_velocity) > 0.0)
-      list.add("analysis", 0, "start", "equilibrium",
-               "frame '" + f.name + "' moves at time 0, so what it carries is at rest in no equilibrium",
-               "name that frame as `frame` of the analysis, let it start from rest, or leave out start");
+      list.add(
+          "analysis", 0, "start", "equilibrium",
+          "frame '" + f.name + "' moves at time 0, so what it carries is at rest in no equilibrium",
+          "name that frame as `frame` of the analysis, let all frames that move turn as one about a fixed axis, let it "
+          "start from rest, or leave out start");
   }
 }
 

@@ -72,6 +72,16 @@ void check_spring_of(ProblemList& list, const std::unordered_set<std::string_vie
                              : "");
 }
 
+void check_motion_of(ProblemList& list, std::size_t i, const Signal& s) {
+  std::vector<std::string> names;
+  for (const PrescribedMotion& m : list.scene.motions) names.push_back(m.name);
+  if (!list.check_known("signals", i, "of", s.part, names, "prescribed motion")) return;
+  const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), s.part) - names.begin());
+  if (!force_row(list.scene.motions[index], s.coordinate))
+    list.add("signals", i, "component", s.coordinate, "no row of this prescribed motion alone holds this component",
+             "a sensor of kind \"force\" measures all components");
+}
+
 /// Two signals that read one effort are one number twice.
 void check_twin_efforts(ProblemList& list) {
   std::unordered_map<std::string, std::size_t> first_of;
@@ -252,6 +262,7 @@ void check_signals(ProblemList& list) {
       for (std::size_t k = 0; k < s.inputs.size(); ++k)
         names.check("signals", i, "of/" + std::to_string(k), s.inputs[k]);
     if (s.kind == SignalKind::spring_tension) check_spring_of(list, spring_of, springs, i, s);
+    if (s.kind == SignalKind::force) check_motion_of(list, i, s);
     if (s.kind == SignalKind::time) list.check_law("signals", i, "law", s.law, false);
   }
   for (std::size_t i = 0; i < scene.sensors.size(); ++i)

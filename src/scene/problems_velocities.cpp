@@ -17,6 +17,7 @@ constexpr double round_off = 1e-12;
 /// Velocity of a rigid part in the ground's axes, linear of the point x.
 struct Velocity {
   Vec3 linear = Vec3::zero(), angular = Vec3::zero(), x = Vec3::zero();
+  bool turns_as_held = false;  ///< of a point, whose rotation is not given and has no inertia
   Vec3 at(const Vec3& point) const { return linear + cross(angular, Vec3(point - x)); }
 };
 
@@ -48,9 +49,19 @@ class GivenVelocities {
     const auto frame = list_.poses.of(std::string_view(v.frame));
     if (!pose || !frame || list_.poses.is_moving(v.frame)) return;
     const Mat3 axes = v.axes == LoadAxes::body ? pose->R : frame->R;
-    const Velocity given{axes * v.velocity, axes * v.angular_velocity, pose->x};
+    const Velocity given{axes * v.velocity, axes * v.angular_velocity, pose->x,
+                         !v.has_angular_velocity && has_no_inertia_of_rotation(thing)};
     of_[v.of] = given;
     if (is_beam) of_[beam->start] = of_[beam->end] = given;
+  }
+
+  bool has_no_inertia_of_rotation(const std::optional<Thing>& thing) const {
+    const Scene& s = list_.scene;
+    if (!thing || thing->kind == ThingKind::beam) return false;
+    if (thing->kind == ThingKind::body) return s.bodies[thing->index].is_point_mass;
+    const std::string& name = s.nodes[thing->index].name;
+    return std::none_of(s.beams.begin(), s.beams.end(),
+                        [&name](const Beam& b) { return b.start == name || b.end == name; });
   }
 
   const ProblemList& list_;
@@ -80,7 +91,11 @@ void check_joint(ProblemList& list, std::size_t i, const GivenVelocities& veloci
   const Vec3 v_a = a->at(H_b->x), v_b = b->at(H_b->x);
   const Vec6 twist = lanes::join(lanes::transpose_times(H_b->R, Vec3(v_b - v_a)),
                                  lanes::transpose_times(H_b->R, Vec3(b->angular - a->angular)));
-  const JointRates rates = held_rates(j, motion::relative(*H_a, *H_b), twist);
+  JointRates rates = held_rates(j, motion::relative(*H_a, *H_b), twist);
+  // A point that turns with what holds it follows in all rotations, and in displacements of places off its origin.
+  const auto is_off = [&](const Velocity& v) { return norm(Vec3(H_b->x - v.x)) > 0.0; };
+  if (a->turns_as_held || b->turns_as_held) rates.angular = 0.0;
+  if ((a->turns_as_held && is_off(*a)) || (b->turns_as_held && is_off(*b))) rates.linear = 0.0;
   const double speed = std::max({norm(v_a), norm(v_b), norm(a->linear), norm(b->linear)});
   const double turning = std::max(norm(a->angular), norm(b->angular));
   const double arm = std::max(norm(H_b->x - a->x), norm(H_b->x - b->x));
@@ -112,6 +127,18 @@ class RigidParts {
   std::unordered_map<std::string, std::string> parent_;
 };
 
+/// By how much the velocities of two places are not those of one rigid motion [m/s, rad/s]. Where a place turns with what
+/// holds it, the other one tells how; of two such places the distance has to stay.
+std::pair<double, double> difference_in_one_part(const Velocity& a, const Velocity& b) {
+  if (!a.turns_as_held && !b.turns_as_held)
+    return {norm(Vec3(a.linear - b.at(a.x))), norm(Vec3(a.angular - b.angular))};
+  if (!a.turns_as_held) return {norm(Vec3(b.linear - a.at(b.x))), 0.0};
+  if (!b.turns_as_held) return {norm(Vec3(a.linear - b.at(a.x))), 0.0};
+  const Vec3 arm = a.x - b.x, off = a.linear - b.linear;
+  const double distance = norm(arm);
+  return {distance > 0.0 ? std::abs(dot(arm, off)) / distance : norm(off), 0.0};
+}
+
 void check_rigid_parts(ProblemList& list, const GivenVelocities& velocities) {
   RigidParts parts(list.scene);
   std::unordered_map<std::string, std::string> first_of;
@@ -122,7 +149,7 @@ void check_rigid_parts(ProblemList& list, const GivenVelocities& velocities) {
     const auto [first, is_new] = first_of.try_emplace(parts.root(name), name);
     if (is_new || first->second == name) continue;
     const Velocity other = *velocities.of(first->second);
-    const double off = norm(own->linear - other.at(own->x)), turned = norm(own->angular - other.angular);
+    const auto [off, turned] = difference_in_one_part(*own, other);
     const double speed = std::max(norm(own->linear), norm(other.at(own->x)));
     const double turning = std::max(norm(own->angular), norm(other.angular));
     if (off <= allowed * speed && turned <= allowed * turning) continue;

@@ -126,6 +126,12 @@ std::vector<SensorType> make_types() {
        {},
        "Force of the rest of the structure on a sub-domain of the solver's tree at its interface, and its moment about "
        "the mean position of the interface's nodes, in the ground's axes."},
+      {SensorKind::force, "force", SensorOf::part, SensorShows::force,
+       in("N", {"fx", "fy", "fz"}) + in("N m", {"mx", "my", "mz"}), seen,
+       "Wrench of a prescribed motion or a load on its part, at the place where it acts (of a line load about the "
+       "start "
+       "of its beam), or of a spring or bushing on its second, at that end. Axes body: those of the part at that "
+       "place."},
   };
 }
 

@@ -76,6 +76,8 @@ class SignalUnits {
       case SignalKind::joint_rate:
       case SignalKind::joint_effort:
         return unit_of_joint(s);
+      case SignalKind::force:
+        return std::string(!s.coordinate.empty() && s.coordinate.front() == 'm' ? "N m" : "N");
       case SignalKind::joint_angle:
       case SignalKind::joint_displacement:
       case SignalKind::spring_tension:

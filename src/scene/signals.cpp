@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -132,6 +133,15 @@ const std::vector<SignalType>& signal_types() {
        "its own",
        "A number that a program sets between steps (Simulation::set_input); where none does, as in `bough run`, it "
        "keeps its start."},
+      {Kind::force,
+       "force",
+       Reads::motion,
+       2,
+       {Field::part},
+       "N or N m",
+       "Component of the force of a prescribed motion on its part, about the place and in the axes of the ground; or "
+       "of a "
+       "load, in the axes in which it is given, at its present size."},
       {Kind::joint_effort,
        "joint_reaction",
        Reads::joint,
@@ -201,6 +211,23 @@ std::optional<ReactionRow> reaction_row(const JointType& joint, std::string_view
     return ReactionRow{static_cast<int>(r), (j + 1) % 3 == i ? -1.0 : 1.0};  // e_j x e_i = e_k or -e_k
   }
   return std::nullopt;
+}
+
+std::optional<ForceRow> force_row(const PrescribedMotion& motion, std::string_view component) {
+  const int k = static_cast<int>(std::find(components.begin(), components.end(), component) - components.begin());
+  if (k < 3) {
+    if (!motion.displacement[k]) return std::nullopt;
+    int row = 0;
+    for (int i = 0; i < k; ++i) row += motion.displacement[i] ? 1 : 0;
+    return ForceRow{false, row, -1.0};
+  }
+  if (k >= 6) return std::nullopt;
+  if (motion.hold_rotation) return ForceRow{true, (k - 2) % 3, 1.0};  // e_i . R e_{i+1} = 0 holds axis i + 2
+  if (!motion.rotation_axis) return std::nullopt;
+  const double along = (*motion.rotation_axis)[k - 3],
+               length = std::sqrt(dot(*motion.rotation_axis, *motion.rotation_axis));
+  if (std::abs(along) < (1.0 - 1e-12) * length) return std::nullopt;
+  return ForceRow{true, 2, along > 0.0 ? -1.0 : 1.0};
 }
 
 bool reads_joint(SignalKind kind) { return type_of(kind).reads == SignalReads::joint; }

@@ -98,8 +98,8 @@ StepReport Bdf::take_start_step(State& state, const StepOptions& options, double
   // equations of motion.
   state = next;
   if (system_.plan().num_multipliers > 0) {
-    if (const auto t = set_normal_velocities(system_, state, nullptr)) return failed(total, t->text);
-    if (const auto t = solve_accelerations(system_, state)) return failed(total, t->text);
+    if (const auto t = set_normal_velocities(system_, state, nullptr, part)) return failed(total, t->text);
+    if (const auto t = solve_accelerations(system_, state, part)) return failed(total, t->text);
   }
   alpha_ = std::move(next);
   if (++done_ == 1) {
@@ -144,7 +144,7 @@ std::optional<Trouble> Bdf::finish_start(const State& state) {
     for (State* point : points) {
       eval_steady_error(*point);
       if (auto t = system_.set_time(point->time, point == &first_ ? laws::Side::right : laws::Side::left)) return t;
-      if (auto t = set_normal_velocities(system_, *point, &steady_error_)) return t;
+      if (auto t = set_normal_velocities(system_, *point, &steady_error_, h_)) return t;
     }
   signals_earlier_ = first_.signals.value;
   signals_last_ = second_.signals.value;

@@ -102,6 +102,13 @@ void LocalError::watch(const plan::Plan& plan, const plan::SensorPlan& sensor) {
   } else {
     watch(sensor.port, turns, velocity);
   }
+  for (const int element : sensor.elements)
+    plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(element)], [&](const auto& e) {
+      for (const elements::Port& port : e.ports) {
+        watch(port, turns, velocity);
+        watch_ends(plan, port.node);
+      }
+    });
   for (const elements::Port& port : sensor.chain) watch(port, turns, velocity);
 }
 

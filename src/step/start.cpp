@@ -14,8 +14,6 @@ using lanes::Taylor;
 
 namespace {
 
-constexpr elements::Slopes mass_slopes{0.0, 0.0, true};
-
 template <class G>
 typename G::template Vector<double> part_on(const System& system, const std::vector<double>& x, std::size_t node) {
   return system.places().part_on<G>(x.data(), static_cast<int>(node));
@@ -33,10 +31,11 @@ void set_rows(const System& system, std::vector<double>& to, From&& from) {
   for (const UnknownPlaces::Multiplier& at : system.places().multipliers()) to[at.unknown] = from(at.multiplier);
 }
 
-/// Evaluates and factors the matrix [M G^T; G 0] at the present positions.
-std::optional<Trouble> factor_mass(System& system, const State& state) {
-  if (auto t = system.evaluate(state, mass_slopes, true)) return t;
-  return system.linear().factor(true, mass_slopes);
+/// Evaluates and factors the matrix of a start at the present positions.
+std::optional<Trouble> factor_mass(System& system, const State& state, double step_size) {
+  const elements::Slopes slopes = start_slopes(system, step_size);
+  if (auto t = system.evaluate(state, slopes, true)) return t;
+  return system.linear().factor(true, slopes);
 }
 
 /// Names the joints whose constraints contradict each other, for a message.
@@ -78,7 +77,7 @@ double speed_scale(const System& system, const State& state) {
 /// Projects velocities to those that satisfy the constraints (with rates `offset` by multiplier, if given) and are
 /// nearest in the mass metric. The mass matrix must be factored. `report` receives the size of the change.
 std::optional<Trouble> project_velocities(System& system, State& state, const std::vector<double>* offset,
-                                          StartReport* report) {
+                                          StartReport* report, double step_size) {
   std::vector<double> rhs(system.places().size(), 0.0), x(system.places().size());
   std::vector<Taylor<double, 3>> series;
   system.constraints().series(state, nullptr, 0.0, series);
@@ -90,8 +89,10 @@ std::optional<Trouble> project_velocities(System& system, State& state, const st
       return largest_entry<G>(system, [&](std::size_t n) { return part_on<G>(system, x, n); });
     });
     report->velocity_change = change > 0.0 ? change / std::max(before, change) : 0.0;
+    const elements::Slopes slopes = start_slopes(system, step_size);
+    const double of_impulse = slopes.mass_only ? 1.0 : 1.0 / slopes.acceleration;
     for (const UnknownPlaces::Multiplier& at : system.places().multipliers())
-      report->velocity_impulse = std::max(report->velocity_impulse, std::abs(x[at.unknown]));
+      report->velocity_impulse = std::max(report->velocity_impulse, of_impulse * std::abs(x[at.unknown]));
     report->velocity_impulse = std::max(report->velocity_impulse, system.largest_held_impulse(state, x.data()));
   }
   state.change_all([&]<class G>(NodesOn<G>& nodes) {
@@ -127,14 +128,15 @@ StartReport failed(const std::string& cause) {
 
 }  // namespace
 
-std::optional<Trouble> set_normal_velocities(System& system, State& state, const std::vector<double>* d) {
-  if (auto t = factor_mass(system, state)) return t;
+std::optional<Trouble> set_normal_velocities(System& system, State& state, const std::vector<double>* d,
+                                             double step_size) {
+  if (auto t = factor_mass(system, state, step_size)) return t;
   std::vector<double> offset;
   if (d != nullptr) eval_rates(system, *d, offset);
-  return project_velocities(system, state, d != nullptr ? &offset : nullptr, nullptr);
+  return project_velocities(system, state, d != nullptr ? &offset : nullptr, nullptr, step_size);
 }
 
-std::optional<Trouble> solve_accelerations(System& system, State& state) {
+std::optional<Trouble> solve_accelerations(System& system, State& state, double step_size) {
   std::vector<double> rhs(system.places().size()), x(system.places().size());
   std::vector<Taylor<double, 3>> series;
   state.change_all([](auto& nodes) {
@@ -142,16 +144,28 @@ std::optional<Trouble> solve_accelerations(System& system, State& state) {
   });
   std::fill(state.multipliers.begin(), state.multipliers.end(), 0.0);
   system.signals().follow_motion(state);
-  if (auto t = system.evaluate(state, mass_slopes, false)) return t;
+  elements::Slopes slopes = start_slopes(system, step_size);
+  if (slopes.mass_only) {
+    if (auto t = system.evaluate(state, slopes, false)) return t;
+  } else {
+    slopes.velocity = 2.0 / step_size;
+    slopes.acceleration = slopes.velocity * slopes.velocity;
+    if (auto t = system.evaluate(state, slopes, true)) return t;
+    if (auto t = system.linear().factor(true, slopes)) return t;
+  }
   system.constraints().series(state, nullptr, 0.0, series);
   rhs = system.right_hand_side();
+  if (!slopes.mass_only) {
+    for (double& r : rhs) r *= slopes.acceleration;
+    for (const std::size_t s : system.places().signals()) rhs[s] = 0.0;
+  }
   set_rows(system, rhs, [&](std::size_t m) { return -2.0 * series[m].c[2]; });
   if (auto t = system.linear().solve(rhs.data(), x.data())) return t;
   state.change_all([&]<class G>(NodesOn<G>& nodes) {
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) nodes.motion[n].a = part_on<G>(system, x, n);
   });
   for (const UnknownPlaces::Multiplier& at : system.places().multipliers())
-    state.multipliers[at.multiplier] = x[at.unknown];
+    state.multipliers[at.multiplier] = slopes.mass_only ? x[at.unknown] : x[at.unknown] / slopes.acceleration;
   system.recover_multipliers(state);
   if (system.plan().signals_read_multipliers) system.signals().follow_motion(state);
   return std::nullopt;
@@ -169,7 +183,7 @@ StartReport make_consistent_on(System& system, State& state, bool fix_positions,
   std::vector<double> rhs(system.places().size(), 0.0), x(system.places().size());
   int worst = 0;
 
-  if (const auto t = factor_mass(system, state)) return failed(t->text);
+  if (const auto t = factor_mass(system, state, step_size)) return failed(t->text);
   double gap = system.constraints().relative_violation(state, 0, &worst);
   report.gap = gap;
   report.open_joint = gap > 0.0 ? worst : -1;
@@ -187,7 +201,7 @@ StartReport make_consistent_on(System& system, State& state, bool fix_positions,
     report.position_correction = std::max(report.position_correction, change);
     state = std::move(trial);
     gap = next;
-    if (const auto t = factor_mass(system, state)) return failed(t->text);
+    if (const auto t = factor_mass(system, state, step_size)) return failed(t->text);
   }
   if (gap > open) {
     char text[80];
@@ -196,10 +210,12 @@ StartReport make_consistent_on(System& system, State& state, bool fix_positions,
     return failed(contradicting(system, worst, system.linear().solver().blocks_not_unique()) + text +
                   (fix_positions ? "" : "; what drives it jumps there"));
   }
+  if (const auto t = place_massless(system, state, step_size)) return failed(t->text);
   set_unmoved(state, false);
 
+  if (const auto t = turn_massless(system, state, step_size)) return failed(t->text);
   double speed = speed_scale(system, state);
-  if (const auto t = project_velocities(system, state, nullptr, &report)) return failed(t->text);
+  if (const auto t = project_velocities(system, state, nullptr, &report, step_size)) return failed(t->text);
   speed = std::max(speed, speed_scale(system, state));
   if (report.velocity_change * speed <= still / step_size) report.velocity_change = 0.0;
   if (system.constraints().relative_violation(state, 1, &worst) > apart * speed + still / step_size) {
@@ -209,7 +225,7 @@ StartReport make_consistent_on(System& system, State& state, bool fix_positions,
     return failed(contradicting(system, worst, system.linear().solver().blocks_not_unique()) + text);
   }
 
-  if (const auto t = solve_accelerations(system, state)) return failed(t->text);
+  if (const auto t = solve_accelerations(system, state, step_size)) return failed(t->text);
   report.ok = true;
   return report;
 }
@@ -320,7 +336,7 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   StartReport report;
   report.ok = true;
   if (system.plan().num_multipliers == 0) return report;
-  if (const auto t = set_normal_velocities(system, state, &steady_error)) return failed(t->text);
+  if (const auto t = set_normal_velocities(system, state, &steady_error, h)) return failed(t->text);
   return report;
 }
 

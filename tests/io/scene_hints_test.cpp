@@ -61,6 +61,46 @@ TEST(SceneHints, other_units_and_huge_numbers_are_told_with_the_name_of_the_thin
   }
 }
 
+std::string arm(const std::string& body, const std::string& more, const std::string& analysis = R"("end_time": 1)") {
+  return R"({"schema_version": 1, "gravity": [0, 0, -9.81],
+    "bodies": [{"name": "link", )" +
+         body + R"(, "position": [0.12, 0, 0]}],
+    "joints": [{"name": "hinge", "kind": "revolute", "first": "ground", "second": "link", "position": [0, 0, 0],
+      "axis": [0, 1, 0])" +
+         more + R"(}], "analysis": {"kind": "dynamic", )" + analysis + "}}";
+}
+
+// Numbers that are legal in SI units and of another unit by all that surrounds them.
+TEST(SceneHints, legal_numbers_of_other_units_are_told) {
+  const std::string sound = R"("mass": 1.56, "inertia": [2.66e-3, 2.3e-3, 1.7e-3])";
+  const struct {
+    std::string scene;
+    std::vector<const char*> words;
+  } hints[] = {
+      {arm(R"("mass": 0.008, "inertia": [1, 1, 1])", ""), {"/bodies/0/inertia", "radius of gyration", "kg m^2"}},
+      {arm(R"("mass": 1.56, "inertia": [2.66, 2.3, 1.7])", ""), {"/bodies/0/inertia", "radius of gyration"}},
+      {arm(sound + R"(, "center_of_mass": [60, 0, 0])", ""), {"/bodies/0/center_of_mass", "60 m", "mm"}},
+      {arm(sound, R"(, "drives": [{"law": {"kind": "smooth_ramp", "end_time": 1, "to": 90}}])"),
+       {"/joints/0/drives/0/law", "90 rad", "degrees"}},
+      {arm(sound, R"(, "drives": [{"law": {"expression": "45*sin(3*t) + 0"}}])"), {"45 rad", "pi/180"}},
+      {arm(sound, R"(, "drives": [{"rate": true, "law": 3000}])"), {"/joints/0/drives/0/law", "rpm", "314.159"}},
+      {arm(sound, "", R"("end_time": 1000, "step_size": 1)"), {"/analysis/step_size", "milliseconds"}},
+      {arm(sound, "", R"("end_time": 500)"), {"/analysis/end_time", "milliseconds"}}};
+  for (const auto& h : hints) {
+    const SceneFile file = read_scene_text(h.scene, "arm");
+    EXPECT_TRUE(file.ok()) << h.scene << "\n" << texts(file.problems);
+    EXPECT_TRUE(says(file.warnings, h.words)) << h.scene << "\n" << texts(file.warnings);
+  }
+  for (const std::string& scene :
+       {arm(sound, ""), arm(sound, R"(, "drives": [{"law": {"expression": "1.57*sin(3*t) + 0"}}])"),
+        arm(sound, R"(, "drives": [{"rate": true, "law": 314.159}])", R"("end_time": 1, "step_size": 1e-4)"),
+        arm(sound, R"(, "drives": [{"law": {"expression": "100*t"}}])", R"("end_time": 10, "step_size": 1e-3)"),
+        arm(sound, "", R"("end_time": 20, "step_size": 0.01)")}) {
+    const SceneFile file = read_scene_text(scene, "arm");
+    EXPECT_TRUE(file.warnings.empty()) << scene << "\n" << texts(file.warnings);
+  }
+}
+
 TEST(SceneHints, numbers_beyond_computing_are_refused) {
   const Hint faults[] = {
       {"force", "\"force\": [1, 0, 0]", "\"force\": [1e300, 0, 0]", {"/loads/0/force", "push", "too large"}},

@@ -126,6 +126,41 @@ TEST(Actuators, a_servo_follows_the_rate_that_a_signal_gives) {
   EXPECT_NEAR(out.history.last("rate"), 6.0 - 6.0 / 40.0, 1e-6);
 }
 
+// Without a limit and a lag the effort is the sum of gains itself, a spring and a damper.
+TEST(Actuators, a_servo_without_limit_and_lag_is_a_spring_and_a_damper) {
+  const Outcome servo = run_ok(
+      scene_of(wheel(R"-("position_gain": 50, "rate_gain": 4, "target": 0.3)-", 1.0), {"/analysis/step_size=2e-3"}));
+  const double rate = 4.0 / (2.0 * 2.0), own = std::sqrt(50.0 / 2.0 - rate * rate);
+  const double left = 0.3 * std::exp(-rate) * (std::cos(own) + rate / own * std::sin(own));
+  EXPECT_NEAR(servo.history.last("angle"), 0.3 - left, 2e-5);
+  const Outcome limited =
+      run_ok(scene_of(wheel(R"-("position_gain": 50, "target": 1e3, "limit": 4)-", 0.5), {"/analysis/step_size=2e-3"}));
+  EXPECT_NEAR(limited.history.last("angle"), 0.5 * 4.0 / 2.0 * 0.25, 1e-9);
+  const Outcome lagging = run_ok(scene_of(wheel(R"-("lag": 0.2, "start": 3)-", 0.3), {"/analysis/step_size=1e-3"}));
+  EXPECT_NEAR(lagging.history.last("torque"), 3.0 * std::exp(-1.5), 1e-5);
+  EXPECT_ANY_THROW(scene_of(wheel(R"-("position_gain": 1, "start": 3)-", 0.3)));
+}
+
+// The rate of a target is its own, unless another is given: a wheel that starts with the target stays on it up to the
+// torque that its acceleration takes, J t^2 / gain, and not a damper's lag behind.
+TEST(Actuators, the_rate_of_a_target_follows_by_itself) {
+  const std::string gains = R"-("position_gain": 4000, "rate_gain": 400, "target": )-",
+                    law = R"-({"expression": "0.5*sin(2*t)"})-";
+  const auto behind = [&](const std::string& target, const std::string& more = "", const std::string& other = "") {
+    const Outcome out = run_ok(scene_of(wheel(gains + target + more, 1.0, other), {"/analysis/step_size=1e-3"}));
+    return 0.5 * std::sin(2.0) - out.history.last("angle");
+  };
+  const double own = behind(law), given = behind(law, R"-(, "target_rate": {"expression": "cos(2*t)"})-");
+  EXPECT_NEAR(own, given, 1e-9);
+  EXPECT_LT(std::abs(own), 0.01);
+  EXPECT_GT(std::abs(behind(law, R"-(, "target_rate": 0)-")), 0.02);
+  const std::string time = R"-(, "signals": [{"name": "wanted", "kind": "time", "law": )-" + law + "}]",
+                    state = R"-(, "signals": [{"name": "turning", "kind": "time", "law": {"expression": "cos(2*t)"}},
+                      {"name": "wanted", "kind": "state", "expression": "turning"}])-";
+  EXPECT_NEAR(behind(R"-({"signal": "wanted"})-", "", time), given, 1e-9);
+  EXPECT_NEAR(behind(R"-({"signal": "wanted"})-", "", state), given, 1e-5);
+}
+
 // Statics: the gain is a spring up to the limit; a torque beyond it is carried by a stop behind.
 TEST(Actuators, statics_hold_against_a_torque) {
   const auto angle = [](double torque) {

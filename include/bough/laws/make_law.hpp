@@ -64,6 +64,10 @@ Law make_product(const Law& a, const Law& b);
 /// f = factor * law.
 Law make_scaled(double factor, const Law& law);
 
+/// f = dg/dt of a law g, with g' and g'' as exact as those are; f'' is a difference of g'' over 1e-6 s (or that part of
+/// t) within the smooth branch on the side asked for. Where the value of g jumps, f has no impulse.
+Law make_rate(const Law& law);
+
 /// The law given by a formula in t [s], with exact derivatives.
 ///   numbers 2  0.5  1e-3;  t  pi  e;  + - * / ^ and parentheses (^ binds to the right and before a sign: -2^2 = -4);
 ///   sin cos tan asin acos atan sinh cosh tanh exp log (natural) sqrt abs sign step pow(x, y), min and max of two or

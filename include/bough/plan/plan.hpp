@@ -35,6 +35,7 @@ struct GivenVelocity {
   motion::Frame<double> offset =
       motion::Frame<double>::identity();  ///< pose of the named part relative to the node, where several were welded to
                                           ///< one node
+  bool has_angular = true;                ///< the angular velocity was given, too
 };
 
 /// A constraint element and its origin in the scene.
@@ -183,6 +184,7 @@ struct SensorPlan {
   std::string signal_unit;              ///< empty: a pure number, or not known
   std::vector<int> subdomain;           ///< the child to take at each level of the tree of the solver
   motion::RowKind coordinate = {};      ///< of the joint, if that is measured
+  std::vector<int> elements;            ///< force: global ids of those whose forces on their last ports are added
   elements::Port frame;                 ///< port of the frame of the observer, or in whose axes the result is resolved
   std::vector<elements::Port> chain;    ///< parts on whose motions values depend, besides the sensor's point: of an
                                         ///< acceleration_split its frames, otherwise `frame`, if it is given
@@ -248,6 +250,9 @@ struct Plan {
   bool signals_read_multipliers = false;             ///< a signal reads the force of a drive or of a row
   std::vector<std::vector<int>> signals_of_element;  ///< by global element id: those it reads. Empty where signals is
   std::vector<EnergyStore> energy_stores;
+  /// Some motion of beams may have no inertia: sections without rotary inertia. Their rotations are those of statics at
+  /// every instant.
+  bool has_massless_rotations = false;
   std::vector<SensorPlan> sensors;
   std::vector<BodyPlan> bodies;  ///< in the scene's order
   std::vector<WeldPlan> welds;   ///< empty unless the decision "welded" was taken

@@ -19,4 +19,15 @@ tree::SubdomainId subdomain_at(const tree::Tree& tree, std::span<const int> path
 motion::Vec6<double> eval_interface_force(const step::System& system, const step::State& state,
                                           const elements::Field& field, tree::SubdomainId subdomain);
 
+/// The wrench of a part of the scene, all of whose elements are given, on what it acts on: of a load or a prescribed
+/// motion at its place, of a line load about the start of its first element, of a spring or bushing on the second at
+/// its end; (force [N], moment [N m]) in the axes of the ground. It is minus the residual of the elements at these
+/// ports, as above. On the ground it is what balances the wrench on the other side.
+struct PartForce {
+  motion::Vec6<double> wrench = motion::Vec6<double>::zero();
+  motion::Mat3<double> axes = motion::Mat3<double>::identity();  ///< of the place where it acts, in the ground
+};
+PartForce eval_part_force(const step::System& system, const step::State& state, const elements::Field& field,
+                          std::span<const int> part);
+
 }  // namespace bough::results

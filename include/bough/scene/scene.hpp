@@ -214,6 +214,9 @@ struct InitialVelocity {
                       ///< components are in its axes
   Vec3 velocity = Vec3::zero();  ///< of the frame's origin [m/s]
   Vec3 angular_velocity = Vec3::zero();
+  /// False: it was not given. A point mass, or a node without beams, then turns with what holds it, since no inertia of
+  /// its own asks for another rotation; for all else it is zero.
+  bool has_angular_velocity = true;
 };
 
 enum class SignalKind : std::uint8_t {
@@ -230,6 +233,7 @@ enum class SignalKind : std::uint8_t {
   formula,         ///< of other signals
   state,           ///< x' = formula of signals, itself included
   input,           ///< a number that a program sets between steps
+  force,           ///< component of the force of a prescribed motion or a load on its part [N], [N m]
 };
 
 /// A number that changes with the motion, for drives, efforts and loads. All signals at one instant belong to the same
@@ -240,6 +244,7 @@ struct Signal {
   std::string joint;
   std::string coordinate;           ///< joint_rate, joint_effort: "angle" or "displacement"; empty: the only one
   std::string spring;               ///< spring_tension
+  std::string part;                 ///< force: a prescribed motion or a load; the component is the `coordinate`
   Attachment at;                    ///< position, velocity
   int axis = 0;                     ///< position, velocity: 0, 1 or 2
   std::string frame;                ///< position, velocity: what sees the point, in whose axes; empty: the ground
@@ -272,6 +277,7 @@ enum class SensorKind : std::uint8_t {
   relative_position,
   signal,
   interface_force,
+  force,
 };
 
 struct Sensor {
@@ -287,6 +293,7 @@ struct Sensor {
   /// an acceleration_split only the axes.
   std::string frame;
   std::string signal;              ///< signal: its name
+  std::string part;                ///< force: a prescribed motion, spring, bushing, load or joint
   std::string subdomain;           ///< interface_force: the child to take at each level of the tree, as "0.1"
   std::vector<std::string> chain;  ///< acceleration_split: frames, nodes or bodies, each moving in the previous one
 };

@@ -10,13 +10,14 @@
 namespace bough::scene {
 
 /// What a signal reads itself, besides other signals.
-enum class SignalReads : std::uint8_t { nothing, joint, spring, point };
+enum class SignalReads : std::uint8_t { nothing, joint, spring, point, motion };
 
 /// What a signal is told in files besides its name, each by the keys of one entry of the schema.
 enum class SignalField : std::uint8_t {
   joint,
   coordinate,
   component,
+  part,  ///< `of` a prescribed motion or a load, and its `component`
   spring,
   point,  ///< `at` and `axis`
   frame,
@@ -67,6 +68,16 @@ struct ReactionRow {
 std::optional<ReactionRow> reaction_row(const JointType& joint, std::string_view component);
 /// Whether a signal of kind joint_effort reads such a component, given as its coordinate.
 bool reads_reaction(const Signal& signal);
+
+/// The row of a prescribed motion whose multiplier is a component of its wrench on the part, "fx" to "mz" in the axes of
+/// the ground, about the place: `turns` of its rotation, else of its displacement, with the sign of ReactionRow. Nothing
+/// where none holds this component alone.
+struct ForceRow {
+  bool turns = false;
+  int row = -1;
+  double sign = 1.0;
+};
+std::optional<ForceRow> force_row(const PrescribedMotion& motion, std::string_view component);
 
 /// Whether a signal measures a coordinate of a joint, or a point.
 bool reads_joint(SignalKind kind);
