@@ -24,7 +24,7 @@ function(bough_add_test_objects name)
 endfunction()
 
 # bough_add_test(name SOURCES a.cpp ... LAYERS layers ... LABEL unit|verification|slow [LIBS targets ...]
-#                [OBJECTS objects ...] [DEFS definitions ...] [TIMEOUT seconds] [NO_TRAPS] [NO_SANITIZERS])
+#                [OBJECTS objects ...] [DEFS definitions ...] [TIMEOUT seconds of processor time] [NO_TRAPS] [NO_SANITIZERS])
 # makes one GoogleTest executable and one ctest entry FOLDER/name.Suite.case for each of its tests; the targets
 # tests_LABEL and tests_FOLDER_LABEL build all of them. The main function is ours: it unmasks floating-point traps
 # (tests/support/main.cpp); NO_TRAPS leaves them masked. NO_SANITIZERS leaves the test out of sanitized builds, for
@@ -72,8 +72,10 @@ function(bough_add_test name)
   bough_precompile(test ${target})
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
   get_filename_component(folder "${CMAKE_CURRENT_SOURCE_DIR}" NAME)
-  gtest_discover_tests(${target} TEST_PREFIX "${folder}/${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS ${TEST_LABEL} TIMEOUT ${TEST_TIMEOUT})
+  math(EXPR wall "${BOUGH_TEST_PATIENCE} * ${TEST_TIMEOUT}")
+  math(EXPR discovery "${BOUGH_TEST_PATIENCE} * 60")
+  gtest_discover_tests(${target} TEST_PREFIX "${folder}/${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT ${discovery}
+    PROPERTIES LABELS ${TEST_LABEL} TIMEOUT ${wall} ENVIRONMENT "BOUGH_TEST_CPU=${TEST_TIMEOUT}")
   foreach(group tests_${TEST_LABEL} tests_${folder}_${TEST_LABEL})
     if(NOT TARGET ${group})
       add_custom_target(${group})

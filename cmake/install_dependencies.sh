@@ -76,9 +76,29 @@ if [ "$(id -u)" -ne 0 ]; then
 fi
 echo "Installing with apt-get${as_root:+ under sudo}:$missing"
 export DEBIAN_FRONTEND=noninteractive
+# Another program may be at apt or dpkg, as unattended upgrades are at night: its end is waited for. apt-get waits by itself
+# for the locks of dpkg, but not for those of the lists of packages and of the archives.
+patience=1800
+apt_once() {
+  $as_root env LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get -qq -o Acquire::Retries=3 -o Dpkg::Use-Pty=0 \
+    -o DPkg::Lock::Timeout="$patience" "$@" 2>&1
+}
 apt() {
-  $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Acquire::Retries=3 -o Dpkg::Use-Pty=0 "$@"
+  waited=0
+  until told=$(apt_once "$@"); do
+    case "$told" in
+      *"Could not get lock"* | *"Unable to lock "*) ;;
+      *) waited=$patience ;;
+    esac
+    if [ "$waited" -ge "$patience" ]; then
+      echo "$told" >&2
+      return 1
+    fi
+    [ "$waited" -gt 0 ] || echo "Waiting for another program to let go of apt"
+    sleep 5
+    waited=$((waited + 5))
+  done
 }
 apt update
-apt install -y --no-install-recommends $missing >/dev/null
+apt install -y --no-install-recommends $missing
 echo "Installed."

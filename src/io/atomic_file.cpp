@@ -79,7 +79,7 @@ AtomicFile::AtomicFile(std::filesystem::path final_path)
   if (descriptor < 0) fail(errno);
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(descriptor);
-    throw std::runtime_error("cannot write " + final_path_.string() + ": another run is writing it");
+    throw BeingWritten("cannot write " + final_path_.string() + ": another run is writing it");
   }
   if (::ftruncate(descriptor, 0) != 0) {
     const int error = errno;

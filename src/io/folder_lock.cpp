@@ -5,7 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <thread>
 
 namespace bough::io {
 
@@ -27,6 +29,18 @@ bool FolderLock::take(const fs::path& folder) {
     return false;
   }
   descriptor_ = descriptor;
+  return true;
+}
+
+bool FolderLock::wait(const fs::path& folder, std::chrono::milliseconds most) {
+  constexpr auto at_first = std::chrono::milliseconds(2), at_most = std::chrono::milliseconds(50);
+  const auto start = std::chrono::steady_clock::now();
+  for (auto pause = at_first; !take(folder); pause = std::min(2 * pause, at_most)) {
+    std::error_code ignored;
+    if (!fs::exists(fs::symlink_status(folder, ignored)) || std::chrono::steady_clock::now() - start > most)
+      return false;
+    std::this_thread::sleep_for(pause);
+  }
   return true;
 }
 

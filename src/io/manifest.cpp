@@ -4,12 +4,12 @@
 #include <chrono>
 #include <fstream>
 #include <iterator>
-#include <thread>
 
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/folder_lock.hpp"
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
+#include "bough/io/output_folder.hpp"
 
 namespace bough::io {
 namespace {
@@ -150,13 +150,23 @@ bool are_one(const fs::path& a, const fs::path& b) {
   return place_of(a) == place_of(b) || fs::equivalent(a, b, error);
 }
 
-/// Waits for a folder's lock: others hold it while they add a line to its manifest, or for a whole run.
-void wait_for(FolderLock& lock, const fs::path& folder, int most_tries = 200) {
-  for (int k = 0; !lock.take(fs::canonical(folder)); ++k) {
-    if (k == most_tries)
+/// Whether a run writes this folder as a whole: it holds its staging folder, too, to its end.
+bool is_held_by_run(const fs::path& folder) {
+  const fs::path staging = OutputFolder::staging_of(folder);
+  std::error_code ignored;
+  if (!fs::is_directory(fs::symlink_status(staging, ignored))) return false;
+  FolderLock lock;
+  return !lock.take(staging) && fs::exists(fs::symlink_status(staging, ignored));
+}
+
+/// Waits for a folder's lock. Who holds it for a line of its manifest, a thread of this process or another process, lets
+/// go of it by itself, however long a busy machine or disk lets that take. A run that holds the folder to its end is not
+/// waited for.
+void wait_for(FolderLock& lock, const fs::path& folder) {
+  constexpr int most_seconds = 1800;  // a process that was stopped may never let go
+  for (int k = 0; !lock.wait(fs::canonical(folder), std::chrono::seconds(1)); ++k)
+    if (k == most_seconds || is_held_by_run(folder))
       throw std::runtime_error("cannot write into " + folder.string() + ": another run is writing it");
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
 }
 
 }  // namespace
@@ -297,9 +307,8 @@ void list_file(const fs::path& folder, const std::string& made_by, const std::st
 void write_listed_file_once(const fs::path& folder, const std::string& made_by, const std::string& name,
                             std::string_view text) {
   if (fs::exists(folder / name)) return;
-  constexpr int most_tries = 15000;  // the first writer may have to make tens of megabytes durable
   FolderLock lock;
-  wait_for(lock, folder, most_tries);
+  wait_for(lock, folder);
   if (fs::exists(folder / name)) return;
   list_in_locked(folder, made_by, name);
   write_file(folder / name, text);

@@ -165,7 +165,7 @@ OutputFolder::OutputFolder(fs::path folder, std::string made_by, std::vector<std
   claim_staging();
   try {
     settle_former_staging();
-    if (is_folder(final_) && !final_lock_.take(final_)) throw std::runtime_error(taken_by_another());
+    lock_final();
     require_ours(final_);
     prepare_staging();
   } catch (...) {
@@ -176,6 +176,14 @@ OutputFolder::OutputFolder(fs::path folder, std::string made_by, std::vector<std
 
 std::string OutputFolder::taken_by_another() const {
   return "cannot write into " + shown_.string() + ": another run is writing it";
+}
+
+/// No other run holds the final folder, since this one holds the staging folder. Who adds a line to its manifest is
+/// waited for.
+void OutputFolder::lock_final() {
+  constexpr auto most = std::chrono::minutes(1);
+  if (is_folder(final_) && !final_lock_.wait(final_, most) && is_folder(final_))
+    throw std::runtime_error(taken_by_another());
 }
 
 /// Makes the staging folder and locks it. Another process that holds it may end in the meantime and remove it. A second

@@ -58,7 +58,9 @@ def poison(kind, k):
         scene["analysis"].update(end_time=1e6, step_size=1e-6)
         scene["output"] = {"stride": 1000000000}
         return json.dumps(scene), "crashed", f"signal {int(SIGNALS[kind])}"
-    scene["analysis"].update(end_time=400)  # writes more than a file may hold
+    # Writes more than a file may hold, within hundreds of steps: far from the limit of time, however busy the machine.
+    scene["sensors"] += [{"name": f"again {n}", "kind": "position", "at": "bob"} for n in range(100)]
+    scene["analysis"].update(end_time=400)
     return json.dumps(scene), "failed", "File too large"
 
 SIGNALS = {7: signal.SIGABRT, 8: signal.SIGSEGV}
@@ -105,7 +107,7 @@ with tempfile.TemporaryDirectory() as folder:
         text, status, word = poison(kind, k)
         (scenes / f"{name}.json").write_text(text)
         wanted[name] = (kind, status, word)
-    batch = subprocess.Popen([program, "batch", str(scenes), "--out", str(out), "--quiet", "--time-limit", "2",
+    batch = subprocess.Popen([program, "batch", str(scenes), "--out", str(out), "--quiet", "--time-limit", "10",
                               "--memory-limit", "2G", "--keep", "all"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (2 << 20, 2 << 20)))
     status = break_cases(batch, {name: SIGNALS[kind] for name, (kind, _, _) in wanted.items() if kind in SIGNALS})

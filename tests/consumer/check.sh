@@ -5,6 +5,7 @@
 #   shared   builds the whole library in the folder of minimal, where most files are compiled already
 # The last two are shared libraries without optimisation, to keep it short; with lines, for lean/check.sh.
 set -eu
+[ -z "${BOUGH_TEST_CPU:-}" ] || ulimit -t "$BOUGH_TEST_CPU"  # of one process; a busy machine does not matter
 kind=$1 source=$2 scratch=$3 compiler=$4 build=${5:-$3/build}
 prefix=$scratch/$kind/prefix user=$scratch/$kind/user
 rm -rf "$prefix" "$user"
@@ -43,6 +44,11 @@ cmake --install "$build" --prefix "$prefix" > "$scratch/$kind/install.log"
 cmake -G Ninja -S "$project" -B "$user" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" $hidden
 cmake --build "$user"
 "$user/consumer" "$source"
+if [ "$kind" = static ]; then  # of a user whose own libraries are shared
+  cmake -G Ninja -S "$project" -B "$user" -DBUILD_SHARED_LIBS=ON
+  cmake --build "$user"
+  "$user/consumer" "$source"
+fi
 if [ "$kind" = static ] && [ -x "$prefix/bin/bough" ] && command -v python3 > /dev/null; then
   # What is installed for notebooks works there; 77: there is no NumPy.
   python3 "$source/tests/apps/check_python.py" "$prefix/bin/bough" "$prefix/share/bough/python" || [ $? = 77 ]

@@ -5,6 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <thread>
 
 #include "bough/io/atomic_file.hpp"
 #include "write_samples.hpp"
@@ -271,6 +274,61 @@ TEST_F(Output, waits_for_a_writer_that_is_about_to_end) {
   EXPECT_EQ(names_in(scratch_.path()), std::vector<std::string>{"out"});
   waitpid(child, nullptr, 0);
   for (const int end : ready) close(end);
+}
+
+// A thread of a study that adds the names of a reference, on a disk that lets it wait.
+TEST_F(Output, a_line_waits_for_others_that_add_theirs_however_long_it_takes) {
+  fs::create_directory(out_);
+  FolderLock held;
+  ASSERT_TRUE(held.take(out_));
+  std::thread slow([&held] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    held.release();
+  });
+  EXPECT_NO_THROW(list_file(out_, "test", "a.txt"));
+  slow.join();
+}
+
+// As many threads as a large study has, each with as many references.
+TEST_F(Output, lines_of_many_threads_all_stand_in_the_manifest) {
+  constexpr int num_threads = 16, lines = 40;
+  std::atomic<int> failures{0};
+  std::vector<std::thread> threads;
+  for (int t = 0; t < num_threads; ++t)
+    threads.emplace_back([&, t] {
+      try {
+        fs::create_directories(out_);
+        for (int k = 0; k < lines; ++k) list_file(out_, "test", std::to_string(t) + "." + std::to_string(k));
+      } catch (const std::exception&) {
+        ++failures;
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(failures, 0);
+  EXPECT_EQ(read_manifest(out_).value().files.size(), static_cast<std::size_t>(num_threads * lines));
+}
+
+TEST_F(Output, a_run_begins_while_lines_are_added_and_ends_the_waiting_of_none) {
+  write("first");
+  std::atomic<bool> done{false};
+  std::atomic<int> failures{0};
+  std::thread lines([&] {
+    while (!done) try {
+        list_file(out_, "view", "page.html");
+      } catch (const std::exception&) {
+        ++failures;
+      }
+  });
+  for (int k = 0; k < 20; ++k) EXPECT_NO_THROW(write("again"));
+  done = true;
+  lines.join();
+  EXPECT_EQ(failures, 0);
+}
+
+TEST_F(Output, a_run_that_holds_the_folder_is_not_waited_for) {
+  write("first");
+  const OutputFolder run(out_, "test", names);
+  EXPECT_THROW(list_file(out_, "view", "page.html"), std::runtime_error);
 }
 
 TEST_F(Output, takes_folders_of_other_results_along) {

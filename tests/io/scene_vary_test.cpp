@@ -1,8 +1,8 @@
 // Scenes that vary: named numbers, formulas and copies, against the same scenes written out by hand.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -247,10 +247,10 @@ TEST(SceneVary, limits_are_checked_before_anything_is_copied) {
       R"("repeat": [{"index": "i", "count": 100000, "nodes": [{"name": "{i}", "comment": ")" + std::string(1000, 'x') +
           R"("}]}])"};
   for (const std::string& text : cases) {
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     expect_problem(text, {"/repeat/", "more than"});
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    EXPECT_LT(taken.count(), 20.0) << text.substr(0, 80);  // two are walks over millions of empty copies
+    const double taken = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    EXPECT_LT(taken, 20.0) << text.substr(0, 80);  // two are walks over millions of empty copies
   }
   expect_problem(R"("repeat": [{"index": "i", "count": 1e9}])", {"/repeat/0/count", "at most 2e+06"});
   expect_problem(R"("repeat": [{"index": "i", "count": -1}])", {"/repeat/0/count", "at least 0"});

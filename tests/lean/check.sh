@@ -3,6 +3,7 @@
 # left_out.py run it under callgrind. That library is not optimised: nothing is inlined, every instruction is charged to the function that
 # asks for it, and none is one that valgrind does not know.
 set -eu
+[ -z "${BOUGH_TEST_CPU:-}" ] || ulimit -t "$BOUGH_TEST_CPU"  # of one process; a busy machine does not matter
 source=$1 minimal=$2 scratch=$3 compiler=$4
 if ! command -v valgrind >/dev/null || ! command -v python3 >/dev/null; then
   echo "SKIPPED: valgrind or python3 is not installed"

@@ -173,7 +173,7 @@ TEST(CaseReports, go_through_a_pipe_with_all_their_bits) {
 TEST_F(Batch, a_case_that_hangs_is_stopped_at_the_limit) {
   add("good");
   add("hangs");
-  const auto results = run(options(2, 0.3));
+  const auto results = run(options(2, 1.0));
   EXPECT_EQ(results.at(0).status, CaseStatus::ok);
   EXPECT_EQ(results.at(1).status, CaseStatus::timed_out);
 }
@@ -188,7 +188,7 @@ TEST_F(Batch, a_case_whose_figures_fail_is_not_called_ok) {
 
 TEST_F(Batch, a_case_past_its_limit_that_stops_by_itself_keeps_its_results) {
   add("slow");
-  const CaseResult result = run(options(1, 0.2)).at(0);
+  const CaseResult result = run(options(1, 0.5)).at(0);
   EXPECT_EQ(result.status, CaseStatus::timed_out);
   EXPECT_EQ(result.cause, "stopped when told so");
   EXPECT_EQ(result.report.accepted, 10);
@@ -196,7 +196,7 @@ TEST_F(Batch, a_case_past_its_limit_that_stops_by_itself_keeps_its_results) {
 
 TEST_F(Batch, a_case_that_has_to_be_killed_at_its_limit_keeps_the_rows_it_had_written) {
   add("stuck");
-  const CaseResult result = run(options(1, 0.1)).at(0);
+  const CaseResult result = run(options(1, 0.5)).at(0);
   EXPECT_EQ(result.status, CaseStatus::timed_out);
   EXPECT_NE(result.cause.find("its rows to the last flush"), std::string::npos) << result.cause;
   EXPECT_EQ(io::read_history(scratch_ / "out/stuck/history.csv").header.columns.size(), 3u);
@@ -334,7 +334,7 @@ TEST_F(Batch, its_cases_end_with_it) {
   kill(batch, SIGKILL);
   waitpid(batch, nullptr, 0);
   bool is_gone = false;
-  for (int k = 0; k < 500 && !is_gone; ++k) {
+  for (int k = 0; k < 15000 && !is_gone; ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
     is_gone =
         kill(child, 0) != 0 || io::text_of("/proc/" + std::to_string(child) + "/stat").find(") Z") != std::string::npos;

@@ -3,6 +3,7 @@
 #include <fenv.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -52,9 +53,20 @@ extern "C" void explain_trap(int signal, siginfo_t* info, void*) {
   ::signal(signal, SIG_DFL);  // the instruction runs again and the process ends with SIGFPE: a debugger stops there
 }
 
+/// Seconds of processor time that the test may take, if its caller says so: other programs on the machine do not make
+/// them more.
+void limit_processor_time() {
+  const char* seconds = std::getenv("BOUGH_TEST_CPU");
+  const rlim_t most = seconds == nullptr ? 0 : std::strtoul(seconds, nullptr, 10);
+  if (most == 0) return;
+  const rlimit limit{most, most + 5};  // SIGXCPU says why, then SIGKILL
+  setrlimit(RLIMIT_CPU, &limit);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  limit_processor_time();
   testing::InitGoogleTest(&argc, argv);
   if (compiled_for_traps() && !runs_under_valgrind()) {
     struct sigaction action = {};

@@ -1,6 +1,7 @@
 #pragma once
 /// A file that appears under its name only when it is complete and on disk.
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -12,11 +13,18 @@ namespace bough::io {
 /// begins to write the content. later: neither.
 enum class Durability { now, content, soon, later };
 
+/// Another writer has the file.
+class BeingWritten : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Writes to `<name>.partial` beside the final name; `commit` makes the file durable and renames it. An existing file
 /// of the final name stays untouched until then. Without `commit` the destructor removes the partial file; after a
 /// crash the next writer takes it over. If the final name is not a regular file (a device, a pipe, a folder), it is
 /// refused and left unchanged; a link to a file is replaced, not followed. Every failure (no space, no permission, a
-/// second writer) is a std::runtime_error that names the file and the system's reason.
+/// second writer) is a std::runtime_error that names the file and the system's reason; of a second writer it is
+/// BeingWritten.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path final_path);

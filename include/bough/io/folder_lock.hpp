@@ -1,5 +1,6 @@
 #pragma once
 /// One writer of a folder at a time.
+#include <chrono>
 #include <filesystem>
 
 namespace bough::io {
@@ -15,6 +16,8 @@ class FolderLock {
   /// False if another process holds the lock, or if the folder no longer exists under this name. On file systems
   /// without locks, the folder counts as locked by this process.
   [[nodiscard]] bool take(const std::filesystem::path& folder);
+  /// Takes the lock as soon as it is free; false if it is not within this time, or if the folder vanishes.
+  [[nodiscard]] bool wait(const std::filesystem::path& folder, std::chrono::milliseconds most);
   void release();
 
  private:

@@ -56,6 +56,7 @@ class OutputFolder {
 
  private:
   void claim_staging();
+  void lock_final();
   void make_durable();
   void prepare_staging();
   void settle_former_staging();

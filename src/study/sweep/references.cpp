@@ -71,10 +71,13 @@ void ReferenceCache::keep(const std::string& from, const io::History& history) c
   std::filesystem::create_directories(folder_);
   const std::string name = io::digest_of(from);
   for (const char* ending : {".csv", ".txt"}) io::list_file(folder_, "references", name + ending);
-  io::HistoryWriter writer(folder_ / (name + ".csv"), history.header);
-  for (const records::HistoryRow& row : history.rows) writer.row(row);
-  writer.commit();
-  io::write_file(folder_ / (name + ".txt"), from);
+  try {
+    io::HistoryWriter writer(folder_ / (name + ".csv"), history.header);
+    for (const records::HistoryRow& row : history.rows) writer.row(row);
+    writer.commit();
+    io::write_file(folder_ / (name + ".txt"), from);
+  } catch (const io::BeingWritten&) {  // by another study with the same cache, which computed the same reference
+  }
 }
 
 ReferenceRuns plan_references(const io::StudySpec& spec) {
