@@ -91,6 +91,7 @@ class Converter : private ValueConverter {
   void reaction(const Value& component, const std::string& at, scene::Signal s);
   void force(const Value& v, const std::string& at, scene::Signal s);
   void add_turned(scene::Signal s, double sign, const std::string& at);
+  std::string effort_part(const Value& v) const;
   std::string unit_of(const Value& v, const std::string& at);
   void signal(const Value& v, const std::string& at);
   laws::Law law_or_signal(const Value& v, const std::string& at, std::string& signal);

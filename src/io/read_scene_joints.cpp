@@ -147,8 +147,13 @@ void Converter::joint(const Value& v, const std::string& at) {
   const Value& forces = *v.find("forces");
   for (std::size_t i = 0; i < forces.items.size(); ++i) {
     const Value& f = forces.items[i];
-    j.forces.push_back(
-        {coordinate(f), f.find("stiffness")->number, f.find("rest")->number, f.find("damping")->number, {}, {}});
+    j.forces.push_back({coordinate(f),
+                        f.find("stiffness")->number,
+                        f.find("rest")->number,
+                        f.find("damping")->number,
+                        {},
+                        {},
+                        text_or(f, "name")});
     scene::JointForce& force = j.forces.back();
     force.effort = law_or_signal(*f.find("effort"), at + "/forces/" + std::to_string(i) + "/effort", force.signal);
     if (turns(j.forces.back().coordinate))
@@ -186,7 +191,7 @@ void Converter::bushing(const Value& v, const std::string& at) {
   Side first = side(*v.find("first"), at + "/first"), second = side(*v.find("second"), at + "/second");
   const auto H = poses_->of(std::string_view(first.to.to));
   place_sides(v, at, scene::type_of(scene::JointKind::fixed), first, second);
-  if (!first.has_rotation && H) first.to.offset.R = scene::Mat3::identity();  // stiffness in the axes of the first
+  if (!first.has_rotation && H) first.to.offset.R = scene::Mat3::identity();  // its own axes, not the second's
   b.first = first.to;
   b.second = second.to;
   if (const Value* k = v.find("stiffness")) b.stiffness = matrix6(*k);

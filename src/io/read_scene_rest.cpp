@@ -95,7 +95,10 @@ void Converter::sensor(const Value& v, const std::string& at) {
   s.coordinate = text_or(v, "coordinate");
   s.signal = text_or(v, "signal");
   s.subdomain = text_or(v, "subdomain");
-  s.part = text_or(v, "of");
+  if (s.kind == scene::SensorKind::joint_effort)
+    s.of = effort_part(v);
+  else
+    s.part = text_or(v, "of");
   s.axes = axes(v);
   s.frame = frame_name(v);
   if (const Value* chain = v.find("frames"))

@@ -58,7 +58,7 @@ void Converter::add_signal(scene::Signal signal, const std::string& at) {
   const std::size_t before = scene.signals.size();
   add(scene.signals, "signals", std::move(signal), at);
   if (scene.signals.size() == before) return;
-  if (const scene::Signal& s = scene.signals.back(); s.kind == SignalKind::joint_effort)
+  if (const scene::Signal& s = scene.signals.back(); s.kind == SignalKind::joint_effort && s.of.empty())
     effort_of_.emplace(s.joint, s.name);
 }
 
@@ -192,6 +192,12 @@ void Converter::force(const Value& v, const std::string& at, scene::Signal s) {
   add_signal(std::move(s), at);
 }
 
+/// `of` of a signal or sensor that reads an effort; empty: all of it.
+std::string Converter::effort_part(const Value& v) const {
+  std::string of = text_or(v, "of");
+  return of == "all" ? std::string() : of;
+}
+
 /// The unit that a signal declares, for people.
 std::string Converter::unit_of(const Value& v, const std::string& at) {
   const std::string unit = text_or(v, "unit");
@@ -218,7 +224,7 @@ void Converter::signal(const Value& v, const std::string& at) {
   if (s.kind == SignalKind::surface)
     signal_surface(v, at, s);
   else
-    s.of = text_or(v, "of");
+    s.of = s.kind == SignalKind::joint_effort ? effort_part(v) : text_or(v, "of");
   s.start = number_or(v, "start", 0.0);
   s.unit = unit_of(v, at);
   if (const Value* where = v.find("at")) {
@@ -242,7 +248,7 @@ void Converter::signal(const Value& v, const std::string& at) {
   }
   if (const Value* given = v.find("law")) s.law = law(*given, at + "/law");
   if (s.kind == SignalKind::formula || s.kind == SignalKind::state) signal_formula(v, at, s);
-  if (!s.of.empty()) s.inputs.assign(1, s.of);
+  if (s.kind == SignalKind::function) s.inputs.assign(1, s.of);
   if (const double nominal = number_or(v, "nominal", 1.0); nominal != 1.0 && faults.size() == faults_before_)
     take_in_units(v, at, nominal, s);
   add_signal(std::move(s), at);

@@ -8,6 +8,7 @@
 #include "bough/io/schema_rule.hpp"
 #include "bough/laws/formula.hpp"
 #include "bough/laws/law_error.hpp"
+#include "bough/scene/joint_efforts.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "json_path.hpp"
 
@@ -87,6 +88,12 @@ class Checker {
   std::string suggestion(const std::string& word, const std::vector<std::string>& known) const {
     const std::string near = is_hopeless() ? "" : scene::nearest_name(word, known);
     return near.empty() ? "" : "did you mean \"" + near + "\"?";
+  }
+
+  std::string suggestion_of_kind(const std::string& word, const std::vector<std::string>& kinds) const {
+    const std::string meant(scene::effort_kind_meant(word));
+    const bool is_known = std::find(kinds.begin(), kinds.end(), meant) != kinds.end();
+    return is_known ? "did you mean \"" + meant + "\"?" : suggestion(word, kinds);
   }
 
   bool fail(const JsonValue& value, const Path& path, std::string rule, std::string hint = {}, bool at_key = false) {
@@ -353,7 +360,7 @@ class Checker {
     }
     if (JsonValue* kind = value.find_given("kind"); kind != nullptr && !kinds.empty())
       return fail(*kind, path.member("kind"), "has to be " + quoted_list(kinds),
-                  kind->is(JsonKind::string) ? suggestion(kind->text, kinds) : "");
+                  kind->is(JsonKind::string) ? suggestion_of_kind(kind->text, kinds) : "");
     if (const JsonValue* name = value.find_given("signal"); name != nullptr && name->is(JsonKind::string)) {
       if (path.text().rfind("/frames/", 0) == 0)
         return fail(value, path,

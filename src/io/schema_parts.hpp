@@ -19,6 +19,9 @@ void add_expansion_rules(RuleTable& table, const std::vector<Field>& lists);
 RuleRef copy_count_rule();
 RuleRef copy_first_rule();
 
+/// `of` of signals and sensors that read an effort.
+Field effort_part_field();
+
 /// An object rule with all its fields; `marker` is the key by which a choice recognises the object.
 Rule object_of(Literal about, std::vector<Field> fields, Literal marker = {});
 /// An object rule recognised by "kind".

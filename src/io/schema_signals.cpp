@@ -16,6 +16,8 @@ std::vector<Field> keys_of(SignalField field) {
     case SignalField::coordinate:
       return {may("coordinate", word_rule("", {"angle", "displacement"}),
                   "Which of its coordinates. Default: the only one that the joint has.")};
+    case SignalField::part:
+      return {effort_part_field()};
     case SignalField::component:
       return {need("component", word_rule("", {"fx", "fy", "fz", "mx", "my", "mz"}),
                    "Force along or moment about an axis of the first's joint frame, along which or about which the "
@@ -62,6 +64,16 @@ std::vector<Field> keys_of(SignalField field) {
 }
 
 }  // namespace
+
+Field effort_part_field() {
+  return may(
+      "of", text_rule(""),
+      "The part that is read. \"all\": springs, dampers, efforts, and the drive or rod that prescribes the "
+      "coordinate, which is what moves the second along it. \"drive\": the drive or rod alone, what a motor has to "
+      "give. \"spring\", \"damper\", \"effort\": these of all forces of the joint; friction, limits and servos are "
+      "efforts. Otherwise the name of one of the forces of the joint.",
+      "\"all\"");
+}
 
 void add_signal_rules(RuleTable& t) {
   std::vector<RuleRef> kinds;

@@ -139,7 +139,8 @@ void add_joints(RuleTable& t) {
                  may("rest", any_number, "Coordinate at which the spring is free [rad] or [m].", "0"),
                  may("damping", not_negative(""), "[N m s/rad] or [N s/m].", "0"),
                  may("effort", named_rule("law_or_signal"),
-                     "Torque [N m] or force [N] on the second about or along the axis.", "0")}));
+                     "Torque [N m] or force [N] on the second about or along the axis.", "0"),
+                 may("name", text_rule(""), "By which signals and sensors of kind \"joint_effort\" read it alone.")}));
   const RuleRef drive =
       made(object_of("Prescribes a coordinate of the joint: the second relative to the first.",
                      {may("coordinate", coordinate, which),
@@ -202,8 +203,9 @@ void add_joints(RuleTable& t) {
        may("start", any_number, "T at the start of dynamics [N m] or [N]; within the limit.", "0")}));
   const RuleRef six = choice_rule("", {named_rule("diagonal6"), named_rule("matrix6")});
   t.named["bushing"] =
-      made(object_of("Elastic and viscous coupling of all relative motions of two frames, in the axes of the first; at "
-                     "rest at the start.",
+      made(object_of("Elastic and viscous coupling of all relative motions of two frames: of the origin of the second "
+                     "as seen from the first, and of its rotation; both in the axes of the first, wherever those of "
+                     "the second are drawn. At rest at the start.",
                      {name_field(), need("first", named_rule("attachment"), "One side."),
                       need("second", named_rule("attachment"), "The other side."),
                       may("position", named_rule("vector"), "Place at the start, in the ground [m], as of a joint."),
@@ -295,10 +297,10 @@ Rule sensor_rule(const scene::SensorType& type) {
   if (type.takes(SensorField::axes_of))
     fields.push_back(frame_field("Frame, node or body in whose axes components are given. Default: the ground."));
   if (type.takes(SensorField::coordinate))
-    fields.push_back(
-        may("coordinate", word_rule("", coordinate_names()),
-            "Whose rate. Default: the only coordinate that the joint has; where it has several, one has to "
-            "be given."));
+    fields.push_back(may("coordinate", word_rule("", coordinate_names()),
+                         "Which one. Default: the only coordinate that the joint has; where it has several, one has to "
+                         "be given."));
+  if (type.takes(SensorField::part)) fields.push_back(effort_part_field());
   const std::string components = scene::components_text(type);
   const std::string& about = lasting(type.about + " Components: " + components + ".");
   Rule rule = object_of_kind({type.name}, about.c_str(), std::move(fields));
@@ -350,8 +352,9 @@ void add_settings(RuleTable& t) {
       {may("stride", integer_rule("", 1, 1e9), "History rows: every n-th step.", "1"),
        may("motion", boolean_rule(""), "Write the moving structure for pictures.", "false"),
        may("motion_stride", integer_rule("", 1, 1e9),
-           "Pictures: every n-th step. Default: at most 101, evenly over the run, fewer where they would take "
-           "more than 200 MB; of statics by arc length every step."),
+           "Pictures: every n-th step. Default: at most 101, evenly over the run, and further ones wherever a part has "
+           "turned by a quarter of a radian; fewer where they would take more than 200 MB; of statics by arc length "
+           "every step."),
        may("checks", boolean_rule(""), "Balances and constraint violations, at history rows.", "true")}));
   t.named["expected"] = made(object_of(
       "A figure the run has to meet. It is taken from all accepted steps, whatever the stride of the output. A time "

@@ -162,6 +162,9 @@ void Builder::add_sensors() {
     if (const auto beam = poses.find(s.beam); beam && beam->kind == scene::ThingKind::beam)
       p.beam = static_cast<int>(beam->index);
     if (const auto joint = joint_of.find(s.joint); joint != joint_of.end()) p.joint = joint->second;
+    if (s.kind == scene::SensorKind::joint_effort)
+      p.effort =
+          read_effort(scene.joints[poses.find(s.joint)->index], joint_element(plan, p.joint), p.coordinate, s.of);
     if (!s.signal.empty()) {
       p.signal = law_of_signal.at(s.signal);
       p.signal_unit = unit_of_signal.at(s.signal);

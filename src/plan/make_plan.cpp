@@ -5,6 +5,7 @@
 
 #include "bough/elements/rows.hpp"
 #include "bough/laws/make_law.hpp"
+#include "bough/motion/norm.hpp"
 #include "bough/plan/plan.hpp"
 #include "bough/plan/stores.hpp"
 #include "bough/scene/analysis_kinds.hpp"
@@ -181,6 +182,21 @@ void Builder::add_motions() {
   }
 }
 
+/// Makes two frames of a coupling equal at the start: the first takes the place of the second, the second the axes of
+/// the first. Their relative motion is then that of the second's origin and of its rotation as seen from the first, in
+/// the first's axes, wherever the second's axes are drawn and however far the origins are apart.
+void Builder::align_at_start(Port& first, Port& second) const {
+  constexpr double round_off = 1e-14;
+  const Frame<double> at_second = initial_pose(second), apart = motion::relative(initial_pose(first), at_second);
+  const auto place = [](Port& port, const Frame<double>& within) {
+    port.offset = motion::compose(port.offset, within);
+    port.has_offset = true;
+  };
+  if (motion::norm(apart.x) > round_off * motion::norm(at_second.x)) place(first, {Mat3<double>::identity(), apart.x});
+  const Vec3<double> turn = motion::log_so3(apart.R);
+  if (motion::norm(turn) > round_off) place(second, {lanes::transpose(apart.R), Vec3<double>::zero()});
+}
+
 void Builder::add_couplings() {
   for (const scene::Spring& s : scene.springs) {
     elements::Spring e;
@@ -195,6 +211,7 @@ void Builder::add_couplings() {
     elements::Bushing e;
     e.ports[0] = port_at(b.first);
     e.ports[1] = port_at(b.second);
+    align_at_start(e.ports[0], e.ports[1]);
     e.stiffness = b.stiffness;
     e.damping = b.damping;
     for (int i = 0; i < 36; ++i) e.has_damping |= b.damping.m[i] != 0.0;

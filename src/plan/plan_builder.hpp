@@ -82,13 +82,16 @@ struct Builder {
   elements::Port port_at(const scene::Attachment& a) const;
   motion::Frame<double> initial_pose(const elements::Port& port) const;
 
+  void align_at_start(elements::Port& first, elements::Port& second) const;
+
   /// Places for the values of signals among those of laws; then the signals themselves.
   void add_signal_laws();
   void add_signals();
   /// Puts signals that elements read, themselves or by others, before those that only observe.
   void part_signals();
   double extent_of_joints() const;
-  void read_effort(const scene::Joint& joint, const elements::Joint& made, motion::RowKind coordinate, SignalPlan& p);
+  static EffortPlan read_effort(const scene::Joint& joint, const elements::Joint& made, motion::RowKind coordinate,
+                                const std::string& of);
   /// Whether a place among the values of laws is that of a signal that is an unknown.
   bool is_signal(int law) const {
     const auto i = static_cast<std::size_t>(law);

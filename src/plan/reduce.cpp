@@ -128,8 +128,7 @@ class InPlane final : public Motion {
   Obstacle against(const elements::Spring& e) const override { return against_places(e.ports); }
   Obstacle against(const elements::Bushing& e) const override {
     if (auto o = against_places(e.ports)) return o;
-    const Vec3<double> a = normal_in(b_.initial_pose(e.ports[0])), b = normal_in(b_.initial_pose(e.ports[1]));
-    if (length_of(a - b) > small) return "its two frames are turned against each other out of the plane";
+    const Vec3<double> a = normal_in(b_.initial_pose(e.ports[0]));  // the two frames are equal at the start
     return couples(e.stiffness, axes_with(2, a)) || couples(e.damping, axes_with(2, a))
                ? Obstacle{"its stiffness or damping couples motions in the plane with others"}
                : std::nullopt;

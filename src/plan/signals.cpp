@@ -5,6 +5,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "bough/scene/joint_efforts.hpp"
 #include "plan_builder.hpp"
 
 namespace bough::plan {
@@ -75,29 +76,27 @@ void Builder::add_signal_laws() {
   }
 }
 
-/// All that acts along a coordinate of a joint: its springs and dampers are one, laws and the multiplier are added.
-void Builder::read_effort(const scene::Joint& joint, const elements::Joint& made, motion::RowKind coordinate,
-                          SignalPlan& p) {
-  p.joint_name = joint.name;
-  p.reading.ports[0] = made.ports[0];
-  p.reading.ports[1] = made.ports[1];
-  elements::Effort& read = p.reading.efforts[0];
-  read.coordinate = coordinate;
+/// What acts along a coordinate of a joint, or the part of it that is read: its springs and dampers are one.
+EffortPlan Builder::read_effort(const scene::Joint& joint, const elements::Joint& made, motion::RowKind coordinate,
+                                const std::string& of) {
+  const scene::EffortParts parts = scene::effort_parts(of, joint).value();
+  EffortPlan p;
+  p.elastic.coordinate = coordinate;
   double moment = 0.0;
   for (int k = 0; k < made.num_efforts; ++k) {
     const elements::Effort& e = made.efforts[k];
-    if (e.coordinate != coordinate) continue;
-    read.stiffness -= e.stiffness;
-    read.damping -= e.damping;
-    moment -= e.stiffness * e.rest;
-    if (e.law >= 0) p.inputs.push_back(e.law);
+    if (e.coordinate != coordinate || !parts.takes(joint.forces[static_cast<std::size_t>(k)])) continue;
+    if (parts.spring) p.elastic.stiffness -= e.stiffness;
+    if (parts.spring) moment -= e.stiffness * e.rest;
+    if (parts.damper) p.elastic.damping -= e.damping;
+    if (parts.effort && e.law >= 0) p.laws.push_back(e.law);
   }
-  if (read.stiffness != 0.0) read.rest = moment / read.stiffness;
-  for (int k = 0; k < made.num_rows; ++k) {
+  if (p.elastic.stiffness != 0.0) p.elastic.rest = moment / p.elastic.stiffness;
+  for (int k = 0; k < made.num_rows && parts.drive; ++k) {
     const elements::ConstraintRow& row = made.rows[k];
     if (row.kind == coordinate && (row.law >= 0 || motion::traits_of(row.kind).is_between_points)) p.row = k;
   }
-  plan.signals_read_multipliers |= p.row >= 0;
+  return p;
 }
 
 void Builder::add_signals() {
@@ -123,9 +122,17 @@ void Builder::add_signals() {
         continue;
       }
       const auto index = static_cast<std::size_t>(joint - scene.joints.data());  // these come first in Plan::joints
-      read_effort(*joint,
-                  array_of<elements::Joint>(plan.elements)[static_cast<std::size_t>(plan.joints[index].element)],
-                  scene::coordinate_of(s, scene::type_of(joint->kind))->kind, p);
+      const elements::Joint& made =
+          array_of<elements::Joint>(plan.elements)[static_cast<std::size_t>(plan.joints[index].element)];
+      const EffortPlan effort =
+          read_effort(*joint, made, scene::coordinate_of(s, scene::type_of(joint->kind))->kind, s.of);
+      p.joint_name = joint->name;
+      p.reading.ports[0] = made.ports[0];
+      p.reading.ports[1] = made.ports[1];
+      read = effort.elastic;
+      p.inputs.insert(p.inputs.end(), effort.laws.begin(), effort.laws.end());
+      p.row = effort.row;
+      plan.signals_read_multipliers |= p.row >= 0;
       continue;
     }
     if (s.kind == scene::SignalKind::force) {

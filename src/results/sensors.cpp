@@ -92,6 +92,18 @@ void append_reaction(const Look& look, const SensorPlan& s, Values& to) {
                  : turned(lanes::transpose_times(motion_of_port(s.frame, look.field).pose.R, R), wrench));
 }
 
+/// What acts on the second along a coordinate of a joint.
+double effort_of(const Look& look, const SensorPlan& s) {
+  const plan::EffortPlan& read = s.effort;
+  const elements::CoordinateMotion along = look.coordinate(s);
+  const double rate = look.field.around.has_inertia ? along.rate : 0.0;
+  double sum = read.elastic.stiffness * (along.value - read.elastic.rest) + read.elastic.damping * rate;
+  for (const int law : read.laws) sum += look.field.around.laws[law];
+  if (read.row < 0) return sum;
+  const plan::JointPlan& joint = look.system.plan().joints[static_cast<std::size_t>(s.joint)];
+  return sum - look.state.multipliers[static_cast<std::size_t>(joint.multiplier_begin + read.row)];
+}
+
 /// Parts of the inertial acceleration along the sensor's chain of frames, then their sum; 3 components each.
 void append_split(const Look& look, const SensorPlan& s, Values& to) {
   using motion::FrameMotion;
@@ -166,6 +178,7 @@ constexpr Kernel kernels[] = {
                                                                   : motion_of_port(s.frame, l.field).pose.R;
        append(to, turned(lanes::transpose(seen), force.wrench));
      }},
+    {joint_effort, [](Look& l, const SensorPlan& s, Values& to) { to.push_back(effort_of(l, s)); }},
 };
 constexpr bool is_in_order() {
   for (std::size_t k = 0; k < std::size(kernels); ++k)

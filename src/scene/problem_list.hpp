@@ -75,6 +75,10 @@ enum class Definite { positive, semi };
 /// Empty, or what is wrong with a matrix that has to be symmetric and positive (semi-) definite.
 std::string definite_fault(const Mat6& a, Definite wanted);
 
+/// Checks the part of an effort that a signal or a sensor names.
+void check_effort_part(ProblemList& list, const char* section, std::size_t index, const std::string& of,
+                       const Joint& joint);
+
 void check_names(ProblemList& list);
 void check_frames(ProblemList& list);
 void check_sections(ProblemList& list);

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "bough/scene/analysis_kinds.hpp"
+#include "bough/scene/joint_efforts.hpp"
 #include "bough/scene/moving_frame.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "bough/scene/spin.hpp"
@@ -43,9 +44,14 @@ void check_coordinate(ProblemList& list, std::size_t i, const JointType& joint) 
     if (joint.coordinate(wanted) == nullptr)
       list.add("sensors", i, "joint", s.joint, "a " + joint.name + " joint has no " + wanted);
   } else if (known.empty()) {
-    list.add("sensors", i, "joint", s.joint, "a " + joint.name + " joint has no coordinate whose rate could be taken");
+    list.add(
+        "sensors", i, "joint", s.joint,
+        "a " + joint.name + " joint has no coordinate" +
+            (s.kind == SensorKind::joint_effort ? " along which an effort could act" : " whose rate could be taken"));
   } else if (s.coordinate.empty() && known.size() > 1) {
-    list.add("sensors", i, "", s.name, "a " + joint.name + " joint has two rates: say of which coordinate",
+    list.add("sensors", i, "", s.name,
+             "a " + joint.name + " joint has two " + (s.kind == SensorKind::joint_effort ? "efforts" : "rates") +
+                 ": say of which coordinate",
              "write \"coordinate\": \"" + known[0].name + "\" or \"coordinate\": \"" + known[1].name + "\"");
   } else if (!s.coordinate.empty() && joint.coordinate(s.coordinate) == nullptr) {
     list.add("sensors", i, "coordinate", s.coordinate,
@@ -103,8 +109,10 @@ void check_sensor(ProblemList& list, std::size_t i) {
     return;
   }
   const bool exists = list.check_reference("sensors", i, "joint", s.joint, list.joints, "joint");
-  if (exists && type.of == SensorOf::coordinate)
-    check_coordinate(list, i, type_of(list.scene.joints[list.poses.find(s.joint)->index].kind));
+  if (!exists || type.of != SensorOf::coordinate) return;
+  const Joint& joint = list.scene.joints[list.poses.find(s.joint)->index];
+  check_coordinate(list, i, type_of(joint.kind));
+  if (type.takes(SensorField::part)) check_effort_part(list, "sensors", i, s.of, joint);
 }
 
 /// Finds tolerances that no result could meet.

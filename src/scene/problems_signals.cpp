@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "bough/scene/joint_efforts.hpp"
 #include "bough/scene/sensor_kinds.hpp"
 #include "bough/scene/signals.hpp"
 #include "problem_list.hpp"
@@ -40,6 +41,19 @@ class SignalNames {
   std::unordered_map<std::string, std::size_t> index_of_;
 };
 
+/// Whether anything of the joint belongs to the part that is read.
+bool has_part(const EffortParts& part, const Joint& joint) {
+  if (part.drive && (!joint.drives.empty() || !type_of(joint.kind).rows.empty())) return true;
+  const auto has_effort = [](const JointForce& f) {
+    const bool is_zero = f.effort.node() == nullptr || (f.effort.is_constant() && f.effort.at(0.0).value == 0.0);
+    return !f.signal.empty() || !is_zero;
+  };
+  return std::any_of(joint.forces.begin(), joint.forces.end(), [&](const JointForce& f) {
+    return part.takes(f) &&
+           ((part.spring && f.stiffness != 0.0) || (part.damper && f.damping != 0.0) || (part.effort && has_effort(f)));
+  });
+}
+
 void check_joint_of(ProblemList& list, std::size_t i, const Signal& s) {
   if (!list.check_reference("signals", i, "joint", s.joint, list.joints, "joint")) return;
   const JointType& type = type_of(list.scene.joints[list.poses.find(s.joint)->index].kind);
@@ -60,6 +74,8 @@ void check_joint_of(ProblemList& list, std::size_t i, const Signal& s) {
     list.add("signals", i, "joint", s.joint,
              "a " + type.name + " joint has two " + (s.kind == SignalKind::joint_rate ? "rates" : "efforts") +
                  ": name one of them as coordinate");
+  if (s.kind == SignalKind::joint_effort)
+    check_effort_part(list, "signals", i, s.of, list.scene.joints[list.poses.find(s.joint)->index]);
 }
 
 void check_spring_of(ProblemList& list, const std::unordered_set<std::string_view>& known,
@@ -82,6 +98,18 @@ void check_motion_of(ProblemList& list, std::size_t i, const Signal& s) {
              "a sensor of kind \"force\" measures all components");
 }
 
+/// Signals and sensors read a force by its name, which is no word of another meaning.
+void check_force_name(ProblemList& list, std::size_t i, std::size_t k) {
+  const std::vector<JointForce>& forces = list.scene.joints[i].forces;
+  const std::string &name = forces[k].name, key = "forces/" + std::to_string(k) + "/name";
+  if (name.empty()) return;
+  const std::vector<std::string>& words = effort_words();
+  if (std::find(words.begin(), words.end(), name) != words.end())
+    list.add("joints", i, key, name, "this word names a part of all efforts along a coordinate", "take another name");
+  for (std::size_t before = 0; before < k; ++before)
+    if (forces[before].name == name) list.add("joints", i, key, name, "another force of the joint has this name");
+}
+
 /// Two signals that read one effort are one number twice.
 void check_twin_efforts(ProblemList& list) {
   std::unordered_map<std::string, std::size_t> first_of;
@@ -89,7 +117,7 @@ void check_twin_efforts(ProblemList& list) {
   for (std::size_t i = 0; i < signals.size(); ++i) {
     if (signals[i].kind != SignalKind::joint_effort) continue;
     const auto [first, is_new] =
-        first_of.emplace(signals[i].joint + '/' + signals[i].coordinate, i);  // names have no /
+        first_of.emplace(signals[i].joint + '/' + signals[i].coordinate + '/' + signals[i].of, i);  // names have no /
     if (!is_new)
       list.add("signals", i, "joint", signals[i].joint,
                "signal '" + signals[first->second].name + "' is this effort already", "take its name");
@@ -237,6 +265,27 @@ void check_variational(ProblemList& list) {
 
 }  // namespace
 
+void check_effort_part(ProblemList& list, const char* section, std::size_t i, const std::string& of,
+                       const Joint& joint) {
+  if (const auto part = effort_parts(of, joint)) {
+    if (!of.empty() && !has_part(*part, joint))
+      list.warn(section, i, "of", of, "the joint has no such part, so this is 0",
+                "leave \"of\" out to read all that acts along the coordinate");
+    return;
+  }
+  std::vector<std::string> words = effort_words();
+  std::string known =
+      "it is \"all\", \"drive\", \"spring\", \"damper\", \"effort\" or the name of a force of the joint";
+  for (const JointForce& f : joint.forces)
+    if (!f.name.empty()) words.push_back(f.name);
+  std::string near = list.nearest(of, words);
+  if (near.empty()) near = effort_word_meant(of);
+  if (near == "effort" && of != near)
+    known = "friction, limits and servos are efforts; \"name\" in a force of the joint makes it one to be read alone";
+  list.add(section, i, "of", of, "no part of the effort along a coordinate has this name",
+           near.empty() ? known : "did you mean \"" + near + "\"? " + known);
+}
+
 void check_signals(ProblemList& list) {
   const Scene& scene = list.scene;
   SignalNames names(list);
@@ -270,6 +319,7 @@ void check_signals(ProblemList& list) {
       names.check("sensors", i, "signal", scene.sensors[i].signal);
   for (std::size_t i = 0; i < scene.joints.size(); ++i)
     for (std::size_t k = 0; k < scene.joints[i].forces.size(); ++k) {
+      check_force_name(list, i, k);
       const std::string key = "forces/" + std::to_string(k) + "/effort/signal";
       names.check("joints", i, key, scene.joints[i].forces[k].signal);
       levels.check_effort("joints", i, key, scene.joints[i].forces[k].signal);

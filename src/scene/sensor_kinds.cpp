@@ -132,6 +132,14 @@ std::vector<SensorType> make_types() {
        "start "
        "of its beam), or of a spring or bushing on its second, at that end. Axes body: those of the part at that "
        "place."},
+      {SensorKind::joint_effort,
+       "joint_effort",
+       coordinate,
+       force,
+       in("N m", {""}),
+       {F::coordinate, F::part},
+       "Torque on the second along a coordinate of a joint, of all that acts along it or of one part of that; of a "
+       "displacement the force in N."},
   };
 }
 
@@ -190,8 +198,10 @@ std::vector<std::string> components_of(SensorKind kind) {
 std::string unit_of(const Sensor& sensor, std::size_t component) {
   const SensorType& type = type_of(sensor.kind);
   if (!type.takes(SensorField::coordinate)) return type.components.at(component).unit;
+  const bool is_effort = sensor.kind == SensorKind::joint_effort;
   for (const JointType& joint : joint_types())
-    if (const JointCoordinate* c = joint.coordinate(sensor.coordinate)) return c->is_length() ? "m/s" : "rad/s";
+    if (const JointCoordinate* c = joint.coordinate(sensor.coordinate))
+      return c->is_length() ? (is_effort ? "N" : "m/s") : is_effort ? "N m" : "rad/s";
   return type.components.at(component).unit;
 }
 

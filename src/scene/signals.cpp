@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bough/laws/formula.hpp"
+#include "bough/scene/joint_efforts.hpp"
 
 namespace bough::scene {
 
@@ -37,13 +38,6 @@ struct PartsRead {
   Named<Spring> springs;
 };
 
-/// Whether a drive or a force of a joint is along the coordinate that a signal reads.
-template <class Along>
-bool acts_along(const Along& given, const JointType& type, const JointCoordinate& coordinate) {
-  const JointCoordinate* own = type.coordinates.size() == 1 ? &type.coordinates[0] : type.coordinate(given.coordinate);
-  return own != nullptr && own->kind == coordinate.kind;
-}
-
 }  // namespace
 
 const std::vector<SignalType>& signal_types() {
@@ -70,10 +64,9 @@ const std::vector<SignalType>& signal_types() {
        "joint_effort",
        Reads::joint,
        2,
-       {Field::joint, Field::coordinate},
+       {Field::joint, Field::coordinate, Field::part},
        "N m or N",
-       "Torque or force on the second along a coordinate, of all that acts along it: springs, dampers, efforts, a "
-       "drive, a rod."},
+       "Torque or force on the second along a coordinate: of all that acts along it, or of one part of that."},
       {Kind::spring_tension,
        "spring_tension",
        Reads::spring,
@@ -244,8 +237,10 @@ std::vector<std::string> names_of_present_inputs(const PartsRead& parts, const S
   if (joint == nullptr) return names;
   const JointType& type = type_of(joint->kind);
   const JointCoordinate* coordinate = coordinate_of(signal, type);
+  const auto read = effort_parts(signal.of, *joint);
+  if (coordinate == nullptr || !read || !read->effort) return names;
   for (const JointForce& f : joint->forces)
-    if (coordinate != nullptr && !f.signal.empty() && acts_along(f, type, *coordinate)) names.push_back(f.signal);
+    if (!f.signal.empty() && read->takes(f) && acts_along(f.coordinate, type, *coordinate)) names.push_back(f.signal);
   return names;
 }
 
@@ -279,12 +274,16 @@ int level_of_reading(const PartsRead& parts, const Signal& s) {
   const Joint* joint = parts.joints.find(s.joint);
   const JointType* type = joint == nullptr ? nullptr : &type_of(joint->kind);
   const JointCoordinate* coordinate = type == nullptr ? nullptr : coordinate_of(s, *type);
-  if (coordinate == nullptr) return -1;
-  int level = type->holds(*coordinate) ? 2 : -1;
+  const auto read = joint == nullptr ? std::nullopt : effort_parts(s.of, *joint);
+  if (coordinate == nullptr || !read) return -1;
+  int level = read->drive && type->holds(*coordinate) ? 2 : -1;
   for (const JointDrive& d : joint->drives)
-    if (acts_along(d, *type, *coordinate)) level = 2;
-  for (const JointForce& f : joint->forces)
-    if (acts_along(f, *type, *coordinate)) level = std::max(level, f.damping != 0.0 ? 1 : f.stiffness != 0.0 ? 0 : -1);
+    if (read->drive && acts_along(d.coordinate, *type, *coordinate)) level = 2;
+  for (const JointForce& f : joint->forces) {
+    if (!read->takes(f) || !acts_along(f.coordinate, *type, *coordinate)) continue;
+    if (read->damper && f.damping != 0.0) level = std::max(level, 1);
+    if (read->spring && f.stiffness != 0.0) level = std::max(level, 0);
+  }
   return level;
 }
 

@@ -175,6 +175,13 @@ struct SignalPlan {
   }
 };
 
+/// What is read of all that acts along a coordinate of a joint, on the second (scene::EffortParts).
+struct EffortPlan {
+  elements::Effort elastic;  ///< all springs and dampers that are read, counted along the motion
+  std::vector<int> laws;     ///< of the efforts, by place among the values of laws
+  int row = -1;              ///< of the joint, whose multiplier, with the sign changed, is added; -1: none
+};
+
 struct SensorPlan {
   scene::Sensor sensor;
   elements::Port port;                  ///< of point sensors
@@ -185,6 +192,7 @@ struct SensorPlan {
   std::vector<int> subdomain;           ///< the child to take at each level of the tree of the solver
   motion::RowKind coordinate = {};      ///< of the joint, if that is measured
   std::vector<int> elements;            ///< force: global ids of those whose forces on their last ports are added
+  EffortPlan effort;                    ///< along that
   elements::Port frame;                 ///< port of the frame of the observer, or in whose axes the result is resolved
   std::vector<elements::Port> chain;    ///< parts on whose motions values depend, besides the sensor's point: of an
                                         ///< acceleration_split its frames, otherwise `frame`, if it is given

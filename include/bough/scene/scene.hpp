@@ -126,8 +126,9 @@ struct JointForce {
   double stiffness = 0.0;  ///< [N m/rad] or [N/m]
   double rest = 0.0;       ///< [rad] or [m]
   double damping = 0.0;
-  laws::Law effort;    ///< torque [N m] or force [N] on the second body along the axis
-  std::string signal;  ///< the signal that gives the effort in place of the law; empty: none
+  laws::Law effort;       ///< torque [N m] or force [N] on the second body along the axis
+  std::string signal;     ///< the signal that gives the effort in place of the law; empty: none
+  std::string name = {};  ///< by which signals and sensors read it alone; may be empty
 };
 
 /// Prescribes a coordinate of a joint as a function of time.
@@ -157,7 +158,8 @@ struct Spring {
   double damping = 0.0;  ///< [N s/m]
 };
 
-/// Elastic and viscous coupling of all six relative motions of two frames, stiffness in the first's axes at rest.
+/// Elastic and viscous coupling of all six relative motions of two frames: of the second's origin as seen from the
+/// first, and of its rotation; stiffness and damping in the axes of the first.
 struct Bushing {
   std::string name;
   Attachment first, second;
@@ -223,7 +225,7 @@ enum class SignalKind : std::uint8_t {
   joint_angle,
   joint_displacement,
   joint_rate,
-  joint_effort,  ///< along a coordinate, of springs, dampers, efforts and the drive or the row that holds it [N], [N m]
+  joint_effort,    ///< along a coordinate, of all that acts there or of one part of that (joint_efforts.hpp) [N], [N m]
   spring_tension,  ///< [N]
   position,        ///< of a point, along an axis of the ground or of a frame [m]
   velocity,        ///< the rate of that [m/s]
@@ -249,7 +251,7 @@ struct Signal {
   int axis = 0;                     ///< position, velocity: 0, 1 or 2
   std::string frame;                ///< position, velocity: what sees the point, in whose axes; empty: the ground
   laws::Law law;                    ///< time, function
-  std::string of;                   ///< function: the signal in the place of time
+  std::string of;                   ///< function: the signal in the place of time; joint_effort: its part; empty: all
   laws::Surface surface;            ///< surface: of the two `inputs`
   laws::Formula formula;            ///< formula, state: in the values of `inputs`
   std::vector<std::string> inputs;  ///< names of signals
@@ -278,6 +280,7 @@ enum class SensorKind : std::uint8_t {
   signal,
   interface_force,
   force,
+  joint_effort,
 };
 
 struct Sensor {
@@ -287,7 +290,8 @@ struct Sensor {
   std::string beam;      ///< section sensors, or a point on a beam's axis
   double station = 0.0;  ///< fraction of the beam's length, 0 to 1
   std::string joint;
-  std::string coordinate;           ///< joint_rate: "angle" or "displacement"; empty: the only one the joint has
+  std::string coordinate;  ///< joint_rate, joint_effort: "angle" or "displacement"; empty: the only one the joint has
+  std::string of;          ///< joint_effort: the part read (joint_efforts.hpp); empty: all
   LoadAxes axes = LoadAxes::space;  ///< resolved in the ground's axes, or those of `frame`, or in the body's own
   /// The frame of the observer of a point's motion, in whose axes it and reactions are resolved; empty: the ground. For
   /// an acceleration_split only the axes.

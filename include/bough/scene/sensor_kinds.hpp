@@ -37,6 +37,7 @@ enum class SensorField : std::uint8_t {
   axes_of,     ///< `frame`: a frame, a node or a body in whose axes it is given
   chain,       ///< `frames`
   coordinate,  ///< of a joint
+  part,        ///< `of`: the part of an effort
 };
 
 struct SensorComponent {

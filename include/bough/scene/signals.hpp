@@ -16,6 +16,7 @@ enum class SignalReads : std::uint8_t { nothing, joint, spring, point, motion };
 enum class SignalField : std::uint8_t {
   joint,
   coordinate,
+  part,  ///< `of`: the part of an effort
   component,
   part,  ///< `of` a prescribed motion or a load, and its `component`
   spring,
