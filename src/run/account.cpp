@@ -88,6 +88,7 @@ template <class Solver>
 void Account::note_rank(double time, const Solver& solver) {
   const int deficiency = solver.last_status().deficiency;
   if (deficiency < 0) return;  // unknown
+  last_dependent_rows_ = deficiency;
   least_dependent_rows_ = std::min(least_dependent_rows_, deficiency);
   if (deficiency <= dependent_rows_) return;
   dependent_rows_ = deficiency;
@@ -97,6 +98,15 @@ void Account::note_rank(double time, const Solver& solver) {
 
 void Account::watch_dependent_rows(double time) { note_rank(time, system_.linear().solver()); }
 void Account::watch_dependent_rows(double time, const solve::Hierarchical& solver) { note_rank(time, solver); }
+
+void Account::see_rows_in_space(int dependent, const std::string& groups) {
+  const bool is_rank_known = least_dependent_rows_ <= dependent_rows_;
+  const int hidden = dependent - last_dependent_rows_;
+  if (!is_rank_known || hidden <= 0) return;
+  least_dependent_rows_ += hidden;
+  dependent_rows_ += hidden;
+  not_unique_ = groups;
+}
 
 /// Rows that are dependent throughout the run do not affect the motion. If rows become dependent only at times, the
 /// rank of the constraints drops there: the mechanism then has more degrees of freedom than elsewhere, and the

@@ -42,6 +42,9 @@ class Account {
   void watch_dependent_rows(double time);
   /// The same by the factorization of another solver, for runs whose own does not know the rank.
   void watch_dependent_rows(double time, const solve::Hierarchical& solver);
+  /// Adds rows that the plan has omitted: how many depend on others with all rows, at the end of the run, and which
+  /// reactions are not unique for that.
+  void see_rows_in_space(int dependent, const std::string& groups);
   int dependent_rows() const { return dependent_rows_; }
 
   /// Notes at the end of a run: on constraint rows that depend on others; then on steps and factors.
@@ -68,7 +71,7 @@ class Account {
   std::unordered_map<std::string, Repeated> repeated_;   ///< by notes without their numbers
   double largest_force_ = 0.0, unbalanced_force_ = 0.0;  ///< in accepted steps; in those at the round-off floor [N]
   std::string first_rejection_, not_unique_;
-  int dependent_rows_ = 0, least_dependent_rows_ = std::numeric_limits<int>::max();
+  int last_dependent_rows_ = 0, dependent_rows_ = 0, least_dependent_rows_ = std::numeric_limits<int>::max();
   double dependent_since_ = 0.0;  ///< time or load factor at which the largest number was met first
 };
 

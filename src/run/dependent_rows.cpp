@@ -1,5 +1,6 @@
 #include "dependent_rows.hpp"
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 #include <vector>
@@ -52,6 +53,7 @@ std::string dependent_groups_text(const step::System& system, std::span<const in
                              parent[root_of(parent, static_cast<std::size_t>(p.node))] = root_of(parent, last);
                        });
   }
+  std::sort(joints.begin(), joints.end());  // as the scene lists them, whatever the order of elimination
   std::vector<std::vector<std::string>> groups;
   std::map<std::size_t, std::size_t> group_of;
   for (const std::size_t j : joints) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hidden_rows.hpp"
 #include "solver_figures.hpp"
 #include "trust.hpp"
 
@@ -69,6 +70,8 @@ void judge(const EndedRun& run) {
   summary.checks.unbalanced_at_floor = account.unbalanced_at_floor(least_force);
   run.analysis.end_errors();
   if (const ErrorWatch* watch = recording.error_watch()) summary.sensor_errors = watch->errors(summary.header);
+  if (const auto rows = find_rows_in_space(run.scene, run.system, run.state))
+    account.see_rows_in_space(rows->dependent, rows->groups);
   account.note_dependent_rows();
   run.analysis.add_notes();
   account.note_steps();

@@ -1,0 +1,103 @@
+// What is said about reactions that are not unique is a property of the scene: the same whatever the plan saves.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "support/scenes.hpp"
+
+namespace bough::run {
+namespace {
+
+using support::run;
+using support::scene_of;
+
+/// The note on rows that depend on others, without a saving or with all; empty: there is none.
+std::string note_of(const std::string& json, const std::vector<std::string>& overrides) {
+  const auto outcome = run(scene_of(json, overrides));
+  EXPECT_TRUE(outcome.ok()) << outcome.summary.cause;
+  for (const std::string& note : outcome.summary.notes)
+    if (note.find("depend on others") != std::string::npos) return note;
+  return "";
+}
+
+const std::string dynamic = R"("analysis": {"kind": "dynamic", "end_time": 0.1, "step_size": 0.005})";
+
+std::string bodies(const std::vector<std::string>& places) {
+  std::string list;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    list += (k > 0 ? ", " : "") + std::string(R"({"name": ")") + static_cast<char>('a' + k) +
+            R"(", "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": )" + places[k] + "}";
+  return R"("bodies": [)" + list + "]";
+}
+std::string joint(const std::string& name, const std::string& kind, const std::string& first, const std::string& second,
+                  const std::string& position, const std::string& more = "") {
+  return R"({"name": ")" + name + R"(", "kind": ")" + kind + R"(", "first": ")" + first + R"(", "second": ")" + second +
+         R"(", "position": )" + position + more + "}";
+}
+const std::string about_y = R"(, "axis": [0, 1, 0])", along_x = R"(, "axis": [1, 0, 0])";
+
+/// Four bars with parallel hinges: a swings, b couples, c swings, on the ground.
+std::string four_bar(const std::string& more_of_crank, const std::string& analysis,
+                     const std::string& last = "revolute") {
+  return R"({"gravity": [0, 0, -9.81], )" + bodies({"[0, 0, 0.5]", "[1, 0, 1.2]", "[2, 0, 0.7]"}) + R"(, "joints": [)" +
+         joint("crank", "revolute", "ground", "a", "[0, 0, 0]", about_y + more_of_crank) + ", " +
+         joint("left", "revolute", "a", "b", "[0, 0, 1]", about_y) + ", " +
+         joint("right", "revolute", "b", "c", "[2, 0, 1.4]", about_y) + ", " +
+         joint("rocker", last, "ground", "c", "[2.2, 0, 0]", last == "spherical" ? "" : about_y) + "], " + analysis +
+         "}";
+}
+
+struct Case {
+  const char* name;
+  std::string json;
+  const char* rows;  ///< how the note begins; empty: there is none
+};
+
+std::vector<Case> cases() {
+  const std::string drive = R"-(, "drives": [{"law": {"expression": "0.2*sin(3*t)"}}])-",
+                    spring = R"(, "forces": [{"stiffness": 300}])";
+  return {
+      {"four bars in a plane", four_bar("", dynamic), "3 constraint"},
+      {"driven four bars", four_bar(drive, dynamic), "3 constraint"},
+      {"four bars whose efforts are asked for",
+       four_bar(drive, R"("analysis": {"kind": "inverse_dynamics", "end_time": 0.4, "step_size": 0.1})"),
+       "3 constraint"},
+      {"four bars on a spring in statics", four_bar(spring, R"("analysis": {"kind": "static"})"), "3 constraint"},
+      {"four bars with a ball that takes what is too much", four_bar("", dynamic, "spherical"), "1 constraint"},
+      {"an open chain in a plane",
+       R"({"gravity": [0, 0, -9.81], )" + bodies({"[0, 0, 0.5]", "[0, 0, 1.5]"}) + R"(, "joints": [)" +
+           joint("lower", "revolute", "ground", "a", "[0, 0, 0]", about_y) + ", " +
+           joint("upper", "revolute", "a", "b", "[0, 0, 1]", about_y) + "], " + dynamic + "}",
+       ""},
+      {"a slide on two rails along a line",
+       R"({"gravity": [9.81, 0, 0], )" + bodies({"[0, 0, 0]"}) + R"(, "joints": [)" +
+           joint("front", "prismatic", "ground", "a", "[0, 1, 0]", along_x) + ", " +
+           joint("back", "prismatic", "ground", "a", "[0, -1, 0]", along_x) + "], " + dynamic + "}",
+       "5 constraint"},
+      {"a ring of parts fixed to each other that falls",
+       R"({"gravity": [0, 0, -9.81], )" + bodies({"[0, 0, 0]", "[1, 0, 0]", "[0, 1, 0]"}) + R"(, "joints": [)" +
+           joint("ab", "fixed", "a", "b", "[0.5, 0, 0]") + ", " + joint("bc", "fixed", "b", "c", "[0.5, 0.5, 0]") +
+           ", " + joint("ca", "fixed", "c", "a", "[0, 0.5, 0]") + "], " + dynamic + "}",
+       "6 constraint"},
+  };
+}
+
+TEST(Redundancy, is_told_alike_with_and_without_every_saving) {
+  const char* const savings[] = {"planar", "line", "translation", "held", "welded"};
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const std::string told = note_of(c.json, {});
+    EXPECT_EQ(told.substr(0, std::string(c.rows).size()), c.rows) << told;
+    EXPECT_EQ(told.empty(), std::string(c.rows).empty()) << told;
+    std::string all;
+    for (const char* saving : savings) {
+      EXPECT_EQ(note_of(c.json, {std::string("/without=[\"") + saving + "\"]"}), told) << "without " << saving;
+      all += (all.empty() ? "\"" : ", \"") + std::string(saving) + "\"";
+    }
+    EXPECT_EQ(note_of(c.json, {"/without=[" + all + "]"}), told) << "in full";
+  }
+}
+
+}  // namespace
+}  // namespace bough::run
