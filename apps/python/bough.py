@@ -128,8 +128,8 @@ class Motion:
         raw = pathlib.Path(path).read_bytes()
         end = raw.find(b"\n") + 1
         header = json.loads(raw[:end])
-        if header.get("format") != "bough motion 3":
-            raise BoughError(f"{path}: not a file of the format 'bough motion 3'", None)
+        if header.get("format") != "bough motion 4":
+            raise BoughError(f"{path}: not a file of the format 'bough motion 4'", None)
         start, at = {}, end
         shapes = [("curves", c["name"], c["points"] * 12) for c in header["curves"]]
         shapes += [("bodies", b["name"], 15 + 3 * b["attachments"]) for b in header["bodies"]]
@@ -140,14 +140,16 @@ class Motion:
             start[kind, name] = numpy.frombuffer(raw, "<f8", count, at)
             at += 8 * count
         times, frames = [], []
-        while at + 16 <= len(raw):  # of a run that was killed: those that are whole
-            time, size = struct.unpack_from("<dQ", raw, at)
-            if size > len(raw) - at - 16:
+        head = struct.Struct("<ddQ")
+        while at + head.size <= len(raw):  # of a run that was killed: those that are whole
+            time, _, size = head.unpack_from(raw, at)
+            at += head.size
+            if size > len(raw) - at:
                 break
-            planes = numpy.frombuffer(zlib.decompress(raw[at + 16:at + 16 + size]), numpy.uint8)
+            planes = numpy.frombuffer(zlib.decompress(raw[at:at + size]), numpy.uint8)
             frames.append(planes.reshape(4, -1).T.copy().view("<f4")[:, 0])
             times.append(time)
-            at += 16 + size
+            at += size
         count = len(times)
         self.times = numpy.array(times)
         values = numpy.array(frames, dtype=float).reshape(count, header["frame_floats"])
@@ -167,10 +169,10 @@ class Motion:
             self.bodies[name] = block[:, 0:3] + start["bodies", name][:3]
             self.rotations[name], self.velocities[name] = block[:, 3:6], block[:, 6:9]
         for link in header["links"]:
-            block = values[:, at:at + 9]
-            at += 9
+            block = values[:, at:at + 15]
+            at += 15
             self.links[link["name"]] = block[:, :6].reshape(count, 2, 3) + start["links", link["name"]][:6].reshape(2, 3)
-        at += 6 * len(header["frames"]) + 9 * len(header["arrows"])
+        at += 9 * len(header["frames"]) + 12 * len(header["arrows"])
         names = header.get("signals", [])
         self.signals = {name: values[:, at + k] for k, name in enumerate(names)}
         self.signal_units = dict(zip(names, header.get("signal_units", [])))

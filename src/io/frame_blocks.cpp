@@ -7,7 +7,7 @@
 
 namespace bough::io {
 
-std::string packed_frame(double time, std::string_view floats) {
+std::string packed_frame(double time, double turn, std::string_view floats) {
   const std::size_t count = floats.size() / sizeof(float);
   std::string planes(floats.size(), '\0');
   for (std::size_t k = 0; k < count; ++k)
@@ -21,14 +21,16 @@ std::string packed_frame(double time, std::string_view floats) {
   block.resize(frame_head_bytes + room);
   const std::uint64_t size = room;
   std::memcpy(block.data(), &time, sizeof time);
-  std::memcpy(block.data() + sizeof time, &size, sizeof size);
+  std::memcpy(block.data() + sizeof time, &turn, sizeof turn);
+  std::memcpy(block.data() + sizeof time + sizeof turn, &size, sizeof size);
   return block;
 }
 
 FrameHead frame_head(std::string_view bytes) {
   FrameHead head;
   std::memcpy(&head.time, bytes.data(), sizeof head.time);
-  std::memcpy(&head.size, bytes.data() + sizeof head.time, sizeof head.size);
+  std::memcpy(&head.turn, bytes.data() + sizeof head.time, sizeof head.turn);
+  std::memcpy(&head.size, bytes.data() + sizeof head.time + sizeof head.turn, sizeof head.size);
   return head;
 }
 

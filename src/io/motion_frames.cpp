@@ -142,25 +142,29 @@ std::string frame_of(const records::MotionFrame& f, const records::MotionFrame& 
     put_difference(bytes, f.links[k].first, start.links[k].first);
     put_difference(bytes, f.links[k].second, start.links[k].second);
     put_turn(bytes, f.links[k].axes, start.links[k].axes);
+    put<float>(bytes, f.links[k].first_velocity, 3);
+    put<float>(bytes, f.links[k].second_velocity, 3);
   }
   for (std::size_t k = 0; k < f.frames.size(); ++k) {
     put_difference(bytes, f.frames[k].position, start.frames[k].position);
     put_turn(bytes, f.frames[k].axes, start.frames[k].axes);
+    put<float>(bytes, f.frames[k].velocity, 3);
   }
   for (std::size_t k = 0; k < f.arrows.size(); ++k) {
     put_difference(bytes, f.arrows[k].position, start.arrows[k].position);
+    put<float>(bytes, f.arrows[k].velocity, 3);
     put<float>(bytes, f.arrows[k].force, 3);
     put<float>(bytes, f.arrows[k].moment, 3);
   }
   for (const records::SignalValue& s : f.signals) put<float>(bytes, &s.value, 1);
-  return packed_frame(f.time, bytes);
+  return packed_frame(f.time, f.turn, bytes);
 }
 
 }  // namespace
 
 std::size_t frame_floats_of(const records::MotionFrame& f) {
   std::size_t floats =
-      9 * f.bodies.size() + 9 * f.links.size() + 6 * f.frames.size() + 9 * f.arrows.size() + f.signals.size();
+      9 * f.bodies.size() + 15 * f.links.size() + 9 * f.frames.size() + 12 * f.arrows.size() + f.signals.size();
   for (const records::Curve& c : f.curves) floats += 21 * c.points.size();
   return floats;
 }

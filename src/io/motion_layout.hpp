@@ -8,7 +8,7 @@
 
 namespace bough::io {
 
-inline constexpr const char* motion_format = "bough motion 3";
+inline constexpr const char* motion_format = "bough motion 4";
 
 /// Number of float32 values of a frame.
 std::size_t frame_floats_of(const records::MotionFrame& frame);

@@ -197,13 +197,17 @@ void read_frame(const std::string& bytes, records::MotionFrame& f) {
     n.moved(l.first);
     n.moved(l.second);
     n.turned(l.axes);
+    n.take<float>(l.first_velocity, 3);
+    n.take<float>(l.second_velocity, 3);
   }
   for (records::FramePose& p : f.frames) {
     n.moved(p.position);
     n.turned(p.axes);
+    n.take<float>(p.velocity, 3);
   }
   for (records::Arrow& a : f.arrows) {
     n.moved(a.position);
+    n.take<float>(a.velocity, 3);
     n.take<float>(a.force, 3);
     n.take<float>(a.moment, 3);
   }
@@ -228,6 +232,22 @@ std::vector<Block> blocks_of(std::ifstream& file, std::uintmax_t begin, std::uin
     begin = block.begin + block.head.size;
   }
   return blocks;
+}
+
+/// Which frames are read: all, if there are few or if parts turn between them, as far as memory allows that; otherwise
+/// evenly chosen ones.
+std::vector<std::size_t> chosen_of(const std::vector<Block>& blocks, std::size_t max_frames, std::size_t start_bytes) {
+  constexpr double most = 3001.0, most_bytes = 400e6;   // of frames, and of their numbers in memory
+  constexpr double turn = 0.6 * records::largest_turn;  // between two frames
+  double all = 0.0;
+  for (const Block& block : blocks) all += block.head.turn;
+  const double turning =
+      std::min({most, most_bytes / (2.0 * static_cast<double>(start_bytes) + 1.0), 1.0 + all / turn});
+  const std::size_t wanted =
+      std::min(blocks.size(), std::max({max_frames, std::size_t{2}, static_cast<std::size_t>(turning)}));
+  std::vector<std::size_t> chosen(wanted);
+  for (std::size_t k = 1; k < wanted; ++k) chosen[k] = k * (blocks.size() - 1) / (wanted - 1);
+  return chosen;
 }
 
 }  // namespace
@@ -257,9 +277,11 @@ Motion read_motion_file(const std::filesystem::path& path, std::size_t max_frame
   const std::vector<Block> blocks = blocks_of(file, line.size() + 1 + bytes.size(), size);
   motion.num_recorded = blocks.size();
   if (blocks.empty()) fail(path, "holds no frame");
-  const std::size_t wanted = std::min(blocks.size(), std::max<std::size_t>(max_frames, 2));
-  for (std::size_t k = 0; k < wanted; ++k) {
-    const Block& block = blocks[wanted < 2 ? 0 : k * (blocks.size() - 1) / (wanted - 1)];
+  double turned = 0.0;  // from the frame before those that are left out
+  std::size_t next = 0;
+  for (const std::size_t k : chosen_of(blocks, max_frames, bytes.size())) {
+    const Block& block = blocks[k];
+    for (turned = 0.0; next <= k; ++next) turned += blocks[next].head.turn;
     bytes.resize(static_cast<std::size_t>(block.head.size));
     file.clear();
     file.seekg(static_cast<std::streamoff>(block.begin));
@@ -268,6 +290,7 @@ Motion read_motion_file(const std::filesystem::path& path, std::size_t max_frame
     if (!floats) fail(path, "a frame cannot be unpacked");
     motion.frames.push_back(start);
     motion.frames.back().time = block.head.time;
+    motion.frames.back().turn = turned;
     read_frame(*floats, motion.frames.back());
   }
   return motion;

@@ -75,23 +75,31 @@ std::string sha256(std::string_view bytes) {
   return digest;
 }
 
-void Arrays::add_frames(const std::string& name, const std::vector<std::uint16_t>& values, std::size_t num_frames) {
+namespace {
+
+/// Differences of the lowest bytes of values from those of the frame before, lowest bytes of all first.
+template <class T>
+std::vector<std::uint8_t> differences(const std::vector<T>& values, std::size_t num_frames, std::size_t num_bytes) {
   const std::size_t row = values.size() / num_frames;
-  std::vector<std::uint8_t> bytes(2 * values.size());
+  std::vector<std::uint8_t> bytes(num_bytes * values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
-    const auto d = static_cast<std::uint16_t>(values[k] - (k >= row ? values[k - row] : 0));
-    bytes[k] = static_cast<std::uint8_t>(d & 255u);
-    bytes[values.size() + k] = static_cast<std::uint8_t>(d >> 8);
+    const std::uint32_t d = static_cast<std::uint32_t>(values[k]) - (k >= row ? values[k - row] : 0u);
+    for (std::size_t b = 0; b < num_bytes; ++b)
+      bytes[b * values.size() + k] = static_cast<std::uint8_t>(d >> (8 * b) & 255u);
   }
-  add(name, "d16", bytes);
+  return bytes;
 }
 
+}  // namespace
+
+void Arrays::add_frames(const std::string& name, const std::vector<std::uint32_t>& values, std::size_t num_frames) {
+  add(name, "d24", differences(values, num_frames, 3));
+}
+void Arrays::add_frames(const std::string& name, const std::vector<std::uint16_t>& values, std::size_t num_frames) {
+  add(name, "d16", differences(values, num_frames, 2));
+}
 void Arrays::add_frames(const std::string& name, const std::vector<std::uint8_t>& values, std::size_t num_frames) {
-  const std::size_t row = values.size() / num_frames;
-  std::vector<std::uint8_t> bytes(values.size());
-  for (std::size_t k = 0; k < values.size(); ++k)
-    bytes[k] = static_cast<std::uint8_t>(values[k] - (k >= row ? values[k - row] : 0));
-  add(name, "d8", bytes);
+  add(name, "d8", differences(values, num_frames, 1));
 }
 
 }  // namespace bough::report

@@ -25,7 +25,9 @@ class Arrays {
     bytes_.resize(at + values.size() * sizeof(T));
     if (!values.empty()) std::memcpy(bytes_.data() + at, values.data(), values.size() * sizeof(T));
   }
-  /// Values of `num_frames` frames, as differences from one to the next modulo 2^16, low bytes before high ones.
+  /// Values of `num_frames` frames, as differences from one to the next modulo 2^24, 2^16 or 2^8, low bytes before high
+  /// ones.
+  void add_frames(const std::string& name, const std::vector<std::uint32_t>& values, std::size_t num_frames);
   void add_frames(const std::string& name, const std::vector<std::uint16_t>& values, std::size_t num_frames);
   void add_frames(const std::string& name, const std::vector<std::uint8_t>& values, std::size_t num_frames);
 

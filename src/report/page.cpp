@@ -166,6 +166,8 @@ bool is_static(const RunFiles& run) {
   return false;
 }
 
+bool has_velocities(const RunFiles& run) { return !run.is_by_step && !is_static(run); }
+
 bool turns_back(const RunFiles& run) {
   const std::vector<records::HistoryRow>& rows = run.history.rows;
   return is_static(run) &&

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "between_frames.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/motion/so3.hpp"
 #include "bough/scene/outlines.hpp"
@@ -418,52 +419,10 @@ class Painter {
   Canvas canvas_;
 };
 
-void mix(double* x, const double* y, double f, std::size_t count) {
-  for (std::size_t k = 0; k < count; ++k) x[k] += f * (y[k] - x[k]);
-}
-/// Rotates along the shortest rotation from one orientation to the other, by a fraction f.
-void turn(double* axes, const double* next, double f) {
-  const Mat3 R = mat(axes);
-  const Vec3 r = motion::log_so3(lanes::transpose(R) * mat(next));
-  const Mat3 between = R * motion::exp_so3(f * r);
-  std::copy_n(between.m, 9, axes);
-}
-
-records::MotionFrame frame_at(const std::vector<records::MotionFrame>& frames, double time) {
-  const auto after =
-      std::find_if(frames.begin(), frames.end(), [&](const records::MotionFrame& f) { return f.time >= time; });
-  if (after == frames.begin()) return frames.front();
-  if (after == frames.end()) return frames.back();
-  records::MotionFrame f = *(after - 1);
-  const records::MotionFrame& g = *after;
-  const double s = (time - f.time) / (g.time - f.time);
-  f.time = time;
-  for (std::size_t c = 0; c < f.curves.size(); ++c)
-    for (std::size_t k = 0; k < f.curves[c].points.size(); ++k) {
-      mix(f.curves[c].points[k].position, g.curves[c].points[k].position, s, 3);
-      turn(f.curves[c].points[k].axes, g.curves[c].points[k].axes, s);
-    }
-  for (std::size_t k = 0; k < f.bodies.size(); ++k) {
-    mix(f.bodies[k].center, g.bodies[k].center, s, 3);
-    turn(f.bodies[k].axes, g.bodies[k].axes, s);
-    for (std::size_t a = 0; a < f.bodies[k].attachments.size(); ++a)
-      mix(f.bodies[k].attachments[a].data(), g.bodies[k].attachments[a].data(), s, 3);
-  }
-  for (std::size_t k = 0; k < f.links.size(); ++k) {
-    mix(f.links[k].first, g.links[k].first, s, 3);
-    mix(f.links[k].second, g.links[k].second, s, 3);
-  }
-  for (std::size_t k = 0; k < f.arrows.size(); ++k) {
-    mix(f.arrows[k].position, g.arrows[k].position, s, 3);
-    mix(f.arrows[k].force, g.arrows[k].force, s, 3);
-  }
-  return f;
-}
-
 }  // namespace
 
 std::string picture_png(const RunFiles& run, double time, const RasterOptions& options) {
-  const records::MotionFrame instant = frame_at(run.motion, time);
+  const records::MotionFrame instant = frame_at(run.motion, time, has_velocities(run));
   return Painter(run, instant, options).paint(instant);
 }
 

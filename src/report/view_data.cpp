@@ -6,6 +6,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "between_frames.hpp"
 #include "bough/io/columns.hpp"
 #include "bough/io/json_text.hpp"
 #include "bough/io/number_text.hpp"
@@ -61,12 +62,16 @@ std::array<double, 4> turn_of(const double* axes, const double* start) {
 /// Moving frames, each different one once.
 class Tracks {
  public:
-  Tracks(const std::vector<const MotionFrame*>& frames, const std::array<double, 3>& origin)
-      : frames_(frames), origin_(origin) {}
+  /// has_velocities: those of frames are the derivatives of the places. is_far: the motion is much longer than what
+  /// moves, whose own lengths need more digits then.
+  Tracks(const std::vector<const MotionFrame*>& frames, const std::array<double, 3>& origin, bool has_velocities,
+         bool is_far)
+      : frames_(frames), origin_(origin), has_velocities_(has_velocities), is_far_(is_far) {}
 
-  /// place(frame): three coordinates; axes(frame): nine numbers, or null for what does not turn.
-  template <class Place, class Axes>
-  std::size_t add(const Place& place, const Axes& axes) {
+  /// place(frame): three coordinates; velocity(frame): the same; axes(frame): nine numbers, or null for what does not
+  /// turn.
+  template <class Place, class Velocity, class Axes>
+  std::size_t add(const Place& place, const Velocity& velocity, const Axes& axes) {
     Series s;
     const double* x0 = place(*frames_.front());
     const double* R0 = axes(*frames_.front());
@@ -80,68 +85,103 @@ class Tracks {
         s.low[c] = std::min(s.low[c], static_cast<float>(d[c]));
         high[c] = std::max(high[c], d[c]);
       }
-      const std::array<double, 4> q = R0 != nullptr ? turn_of(axes(*f), R0) : std::array<double, 4>{0, 0, 0, 1};
-      for (std::size_t c = 0; c < 3; ++c) s.turns.push_back(signed_16(q[c]));
+      std::array<double, 4> q = R0 != nullptr ? turn_of(axes(*f), R0) : std::array<double, 4>{0, 0, 0, 1};
+      if (!s.turns.empty() && dot_with_last(s.turns, q) < 0.0)
+        for (double& component : q) component = -component;  // the same rotation, next to the last one
+      for (const double component : q) s.turns.push_back(signed_16(component));
     }
+    const double most = is_far_ ? 16777215.0 : 65535.0;
     for (std::size_t c = 0; c < 3; ++c) {
       s.start[c] = static_cast<float>(std::isfinite(x0[c]) ? x0[c] - origin_[c] : 0.0);
-      s.step = std::max(s.step, static_cast<float>((high[c] - static_cast<double>(s.low[c])) / 65535.0));
+      s.step = std::max(s.step, static_cast<float>((high[c] - static_cast<double>(s.low[c])) / most));
     }
     for (const auto& d : moves)
       for (std::size_t c = 0; c < 3; ++c)
-        s.moves.push_back(s.step > 0.0f
-                              ? unsigned_16((d[c] - static_cast<double>(s.low[c])) / static_cast<double>(s.step))
-                              : std::uint16_t{0});
+        s.moves.push_back(
+            s.step > 0.0f ? whole((d[c] - static_cast<double>(s.low[c])) / static_cast<double>(s.step), most) : 0u);
+    add_rates(place, velocity, s);
     return place_of(std::move(s));
   }
 
   void write(Arrays& arrays) const {
-    std::vector<float> start, low, step;
+    std::vector<float> start, low, step, fastest;
     for (const Series& s : all_) {
       start.insert(start.end(), s.start.begin(), s.start.end());
       low.insert(low.end(), s.low.begin(), s.low.end());
       step.push_back(s.step);
+      fastest.push_back(s.fastest);
     }
     const std::size_t n = frames_.size();
-    std::vector<std::uint16_t> moves, turns;
+    std::vector<std::uint32_t> moves;
+    std::vector<std::uint16_t> turns, rates;
     for (std::size_t f = 0; f < n; ++f)
-      for (const Series& s : all_)
+      for (const Series& s : all_) {
         for (std::size_t c = 0; c < 3; ++c) {
           moves.push_back(s.moves[3 * f + c]);
-          turns.push_back(s.turns[3 * f + c]);
+          rates.push_back(s.rates[3 * f + c]);
         }
+        for (std::size_t c = 0; c < 4; ++c) turns.push_back(s.turns[4 * f + c]);
+      }
     arrays.add("start", "f32", start);
     arrays.add("low", "f32", low);
     arrays.add("step", "f32", step);
-    arrays.add_frames("displacement", moves, n);
+    arrays.add("fastest", "f32", fastest);
+    if (is_far_)
+      arrays.add_frames("displacement", moves, n);
+    else
+      arrays.add_frames("displacement", std::vector<std::uint16_t>(moves.begin(), moves.end()), n);
+    arrays.add_frames("velocity", rates, n);
     arrays.add_frames("rotation", turns, n);
   }
 
  private:
   struct Series {
     std::array<float, 3> start{}, low{};
-    float step = 0.0f;
-    std::vector<std::uint16_t> moves, turns;
+    float step = 0.0f, fastest = 0.0f;
+    std::vector<std::uint32_t> moves;
+    std::vector<std::uint16_t> turns, rates;
   };
+
+  template <class Place, class Velocity>
+  void add_rates(const Place& place, const Velocity& velocity, Series& s) const {
+    std::vector<std::array<double, 3>> rates;
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+      const double* v = velocity(*frames_[f]);
+      rates.push_back(has_velocities_ ? std::array<double, 3>{v[0], v[1], v[2]} : slope_at(frames_, f, place));
+      for (double& component : rates.back()) {
+        if (!std::isfinite(component)) component = 0.0;
+        s.fastest = std::max(s.fastest, static_cast<float>(std::abs(component)));
+      }
+    }
+    for (const auto& rate : rates)
+      for (const double component : rate)
+        s.rates.push_back(s.fastest > 0.0f ? signed_16(component / static_cast<double>(s.fastest)) : std::uint16_t{0});
+  }
+  static double dot_with_last(const std::vector<std::uint16_t>& turns, const std::array<double, 4>& q) {
+    double dot = 0.0;
+    for (std::size_t c = 0; c < 4; ++c) dot += static_cast<std::int16_t>(turns[turns.size() - 4 + c]) * q[c];
+    return dot;
+  }
 
   static std::uint16_t signed_16(double q) {
     const double steps = std::isfinite(q) ? std::round(32767.0 * std::clamp(q, -1.0, 1.0)) : 0.0;
     return static_cast<std::uint16_t>(static_cast<std::int16_t>(steps));
   }
-  static std::uint16_t unsigned_16(double steps) {
-    return std::isfinite(steps) ? static_cast<std::uint16_t>(std::clamp(std::round(steps), 0.0, 65535.0))
-                                : std::uint16_t{0};
+  static std::uint32_t whole(double steps, double most) {
+    return std::isfinite(steps) ? static_cast<std::uint32_t>(std::clamp(std::round(steps), 0.0, most)) : 0u;
   }
 
   std::size_t place_of(Series s) {
     std::string key(reinterpret_cast<const char*>(s.start.data()), sizeof s.start);
     key.append(reinterpret_cast<const char*>(s.low.data()), sizeof s.low);
-    for (const auto* list : {&s.moves, &s.turns})
+    key.append(reinterpret_cast<const char*>(s.moves.data()), s.moves.size() * sizeof(std::uint32_t));
+    for (const auto* list : {&s.turns, &s.rates})
       key.append(reinterpret_cast<const char*>(list->data()), list->size() * sizeof(std::uint16_t));
     // Hashes alone are kept; series of one hash are compared.
     std::vector<std::size_t>& same = known_[std::hash<std::string>()(key)];
     for (const std::size_t k : same)
-      if (all_[k].start == s.start && all_[k].low == s.low && all_[k].moves == s.moves && all_[k].turns == s.turns)
+      if (all_[k].start == s.start && all_[k].low == s.low && all_[k].moves == s.moves && all_[k].turns == s.turns &&
+          all_[k].rates == s.rates)
         return k;
     same.push_back(all_.size());
     all_.push_back(std::move(s));
@@ -150,6 +190,7 @@ class Tracks {
 
   const std::vector<const MotionFrame*>& frames_;
   std::array<double, 3> origin_;
+  bool has_velocities_, is_far_;
   std::vector<Series> all_;
   std::unordered_map<std::size_t, std::vector<std::size_t>> known_;
 };
@@ -254,16 +295,42 @@ class MotionData {
   }
 
   std::string json(Arrays& arrays) {
-    Tracks tracks(frames_, middle_);
+    Tracks tracks(frames_, middle_, has_velocities(run_), is_far());
     std::string text = curves(tracks, arrays) + bodies(tracks, arrays) + others(tracks, arrays) + signals(arrays);
     tracks.write(arrays);
     std::vector<double> times;
     for (const MotionFrame* f : frames_) times.push_back(f->time);
-    return "\"times\":" + numbers(times, 12) + ",\"origin\":" + numbers(middle_) +
-           ",\"middle\":[0,0,0],\"size\":" + io::rounded_text(size_, 6) + ",\"look\":\"" + look() + "\"," + text;
+    arrays.add("turn", "f32", turns());
+    return "\"times\":" + numbers(times, 12) + ",\"largestTurn\":" + io::rounded_text(records::largest_turn, 6) +
+           ",\"origin\":" + numbers(middle_) + ",\"middle\":[0,0,0],\"size\":" + io::rounded_text(size_, 6) +
+           ",\"look\":\"" + look() + "\"," + text;
   }
 
  private:
+  /// Whether the structure moves far against its own size.
+  bool is_far() const {
+    constexpr double far = 8.0;
+    const Box now = box_of({*frames_.front()});
+    double own = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) own = std::max(own, now.empty ? 0.0 : now.high[c] - now.low[c]);
+    return size_ > far * own && own > 0.0;
+  }
+
+  /// How far parts turn from each frame to the next, with those that were left out between.
+  std::vector<float> turns() const {
+    std::vector<float> list;
+    double sum = 0.0;
+    std::size_t next = 0;
+    for (const MotionFrame& f : run_.motion) {
+      sum += f.turn;
+      if (next == frames_.size() || frames_[next] != &f) continue;
+      list.push_back(static_cast<float>(sum));
+      sum = 0.0;
+      ++next;
+    }
+    return list;
+  }
+
   std::string look() const {
     switch (resolve_view(View::automatic, box_)) {
       case View::xy:
@@ -293,6 +360,7 @@ class MotionData {
       for (std::size_t k = 0; k < curve.points.size(); ++k) {
         point_track.push_back(
             static_cast<std::uint32_t>(tracks.add([&](const MotionFrame& f) { return f.curves[c].points[k].position; },
+                                                  [&](const MotionFrame& f) { return f.curves[c].points[k].velocity; },
                                                   [&](const MotionFrame& f) { return f.curves[c].points[k].axes; })));
         for (const double q : quaternion_of(curve.points[k].axes)) point_axes.push_back(static_cast<float>(q));
       }
@@ -339,6 +407,7 @@ class MotionData {
              for (const auto& a : b.attachments)
                for (std::size_t c = 0; c < 3; ++c) arms.push_back(a[c] - b.center[c]);
              const std::size_t track = tracks.add([&](const MotionFrame& f) { return f.bodies[k].center; },
+                                                  [&](const MotionFrame& f) { return f.bodies[k].velocity; },
                                                   [&](const MotionFrame& f) { return f.bodies[k].axes; });
              return "{\"name\":" + io::json_string(b.name) + ",\"track\":" + std::to_string(track) +
                     ",\"axes\":" + numbers(quaternion_of(b.axes)) +
@@ -369,8 +438,11 @@ class MotionData {
         ",\"links\":" + list_of(start.links, [&](std::size_t k) {
           const records::Link& l = start.links[k];
           const std::size_t first = tracks.add([&](const MotionFrame& f) { return f.links[k].first; },
+                                               [&](const MotionFrame& f) { return f.links[k].first_velocity; },
                                                [&](const MotionFrame& f) { return f.links[k].axes; });
-          const std::size_t second = tracks.add([&](const MotionFrame& f) { return f.links[k].second; }, still);
+          const std::size_t second =
+              tracks.add([&](const MotionFrame& f) { return f.links[k].second; },
+                         [&](const MotionFrame& f) { return f.links[k].second_velocity; }, still);
           return "{\"name\":" + io::json_string(l.name) +
                  ",\"kind\":" + io::json_string(k < run_.parts.links.size() ? run_.parts.links[k].kind : "") +
                  ",\"first\":" + std::to_string(first) + ",\"second\":" + std::to_string(second) +
@@ -380,6 +452,7 @@ class MotionData {
     text += ",\"frames\":" + list_of(start.frames, [&](std::size_t k) {
               const records::FramePose& p = start.frames[k];
               const std::size_t track = tracks.add([&](const MotionFrame& f) { return f.frames[k].position; },
+                                                   [&](const MotionFrame& f) { return f.frames[k].velocity; },
                                                    [&](const MotionFrame& f) { return f.frames[k].axes; });
               return "{\"name\":" + io::json_string(p.name) + ",\"track\":" + std::to_string(track) +
                      ",\"axes\":" + numbers(quaternion_of(p.axes)) + "}";
@@ -393,7 +466,8 @@ class MotionData {
     arrays.add("force", "f32", force);
     arrays.add("moment", "f32", moment);
     text += ",\"arrows\":" + list_of(start.arrows, [&](std::size_t k) {
-              const std::size_t track = tracks.add([&](const MotionFrame& f) { return f.arrows[k].position; }, still);
+              const std::size_t track = tracks.add([&](const MotionFrame& f) { return f.arrows[k].position; },
+                                                   [&](const MotionFrame& f) { return f.arrows[k].velocity; }, still);
               return "{\"name\":" + io::json_string(start.arrows[k].name) + ",\"kind\":\"" +
                      (start.arrows[k].is_per_length ? "line load" : "load") + "\",\"track\":" + std::to_string(track) +
                      "}";

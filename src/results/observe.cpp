@@ -8,6 +8,7 @@
 #include "bough/results/balance.hpp"
 #include "bough/scene/components.hpp"
 #include "observe_parts.hpp"
+#include "section_force.hpp"
 #include "stand_in.hpp"
 
 namespace bough::results {
@@ -27,83 +28,6 @@ struct BeamPoint {
   Frame<double> pose;  ///< position in the inertial frame
   Vec6<double> v, a, strain;
 };
-
-using Series = lanes::Taylor<double, 1>;  ///< value and change to first order
-
-/// Motion of a port and its first-order change with the node's increment eta (in the node's own axes) that is below the
-/// round-off of its position (State::unsettled): R' = R ~w, x' = R v.
-PortMotion<Series> with_unsettled(const PortMotion<double>& p, const Port& port, const step::State& state) {
-  PortMotion<Series> r;
-  r.H.R = lanes::cast<Series>(p.H.R);
-  r.H.x = lanes::cast<Series>(p.H.x);
-  r.v = r.a = Vec6<Series>::zero();
-  if (port.node == elements::ground) return r;
-  Vec6<double> eta = state.unsettled[static_cast<std::size_t>(port.node)];
-  if (port.has_offset) eta = motion::inverse_adjoint_times(port.offset, eta);
-  const Vec3<double> dx = p.H.R * lanes::linear_part(eta), w = lanes::angular_part(eta);
-  for (int i = 0; i < 3; ++i) {
-    r.H.x[i].c[1] = dx[i];
-    for (int j = 0; j < 3; ++j) {
-      const int k = (j + 1) % 3, l = (j + 2) % 3;
-      r.H.R(i, j).c[1] = p.H.R(i, k) * w[l] - p.H.R(i, l) * w[k];
-    }
-  }
-  return r;
-}
-
-/// Adds the residual of an element to `sum`. In statics it includes the first-order effect of that increment, f + K
-/// eta; see step/settle.hpp.
-template <class E>
-void add_settled_residual(const E& e, const PortMotion<double>* p, const Field& f, const step::State& state,
-                          double* sum) {
-  constexpr int n = 6 * E::num_ports;
-  double out[n];
-  elements::eval_residual(e, p, f.around, out);
-  for (int k = 0; k < n; ++k) sum[k] += out[k];
-  if (state.unsettled.empty()) return;
-  PortMotion<Series> moved[E::num_ports];
-  for (int i = 0; i < E::num_ports; ++i) moved[i] = with_unsettled(p[i], e.ports[i], state);
-  Series law(0.0);
-  elements::Surroundings<Series> around{lanes::cast<Series>(f.around.gravity), &law, f.around.has_inertia};
-  E own = e;
-  if constexpr (E::role == elements::Role::load) {
-    law = Series(f.around.laws[own.law]);
-    own.law = 0;
-  }
-  Series change[n];
-  elements::eval_residual(own, moved, around, change);
-  for (int k = 0; k < n; ++k) sum[k] += change[k].c[1];
-}
-
-/// Wrenches of a beam element and its line loads on its first and last node, in section axes. The section resultants at
-/// the two ends are (-first, last): they follow from nodal equilibrium, and are one order more accurate than those from
-/// strains.
-template <class E>
-void eval_end_wrenches(const step::System& system, const E& e, const std::vector<int>& loads, const Field& f,
-                       const step::State& state, Vec6<double>& first, Vec6<double>& last) {
-  constexpr int N = E::num_ports;
-  const motion::Vec3Pair anchor = elements::anchor_of(e, f.nodes);
-  PortMotion<double> p[N];
-  for (int i = 0; i < N; ++i) {
-    p[i] = elements::eval_port(e.ports[i], f.nodes, anchor);
-    if (f.observer != nullptr)
-      elements::add_observer_motion(p[i], Vec3<double>(anchor.hi + anchor.lo), f.observer->twist,
-                                    f.observer->twist_rate);
-  }
-  double out[6 * N] = {};
-  add_settled_residual(e, p, f, state, out);
-  for (int id : loads)
-    plan::with_element(system.plan().elements, system.plan().directory[static_cast<std::size_t>(id)],
-                       [&](const auto& load) {
-                         using L = std::decay_t<decltype(load)>;
-                         if constexpr (L::role == elements::Role::load && L::num_ports == N)
-                           add_settled_residual(load, p, f, state, out);
-                       });
-  for (int k = 0; k < 6; ++k) {
-    first[k] = -out[k];
-    last[k] = out[6 * (N - 1) + k];
-  }
-}
 
 template <class E>
 BeamPoint eval_point(const E& e, const Field& f, double s) {
@@ -138,6 +62,31 @@ void with_beam_element(const plan::Plan& plan, int id, F&& f) {
   });
 }
 
+/// Strains of the stress-free section under a sectional force: C^-1 f, by Cholesky's factors, in units in which the
+/// diagonal is 1.
+Vec6<double> strain_of(const motion::Mat6<double>& stiffness, const Vec6<double>& force) {
+  double unit[6];
+  motion::Mat6<double> L = stiffness;
+  Vec6<double> x = force;
+  for (int i = 0; i < 6; ++i) unit[i] = 1.0 / std::sqrt(stiffness(i, i));
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      double sum = unit[i] * stiffness(i, j) * unit[j];
+      for (int k = 0; k < j; ++k) sum -= L(i, k) * L(j, k);
+      L(i, j) = i == j ? std::sqrt(sum) : sum / L(j, j);
+    }
+    x[i] *= unit[i];
+    for (int k = 0; k < i; ++k) x[i] -= L(i, k) * x[k];
+    x[i] /= L(i, i);
+  }
+  for (int i = 5; i >= 0; --i) {
+    for (int k = i + 1; k < 6; ++k) x[i] -= L(k, i) * x[k];
+    x[i] /= L(i, i);
+  }
+  for (int i = 0; i < 6; ++i) x[i] *= unit[i];
+  return x;
+}
+
 /// The point of a beam that a sensor names.
 BeamPoint eval_station(const step::System& system, const Field& f, const plan::SensorPlan& s) {
   const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
@@ -148,57 +97,6 @@ BeamPoint eval_station(const step::System& system, const Field& f, const plan::S
   return point;
 }
 
-/// Second-order term of the sectional force over an element, 1/2 d2f/ds2, from its strains at the strain points.
-/// Elements of four nodes have three such points and therefore this term; those of fewer nodes do not. (Strains at
-/// other points are less accurate.)
-template <class E>
-Vec6<double> eval_force_curvature(const E& e, const Field& f, const step::State& state) {
-  constexpr int N = E::num_ports, P = E::num_strain_points;
-  if constexpr (P < 3) {
-    return Vec6<double>::zero();
-  } else {
-    const motion::Vec3Pair anchor = elements::anchor_of(e, f.nodes);
-    PortMotion<double> p[N];
-    for (int i = 0; i < N; ++i) p[i] = elements::eval_port(e.ports[i], f.nodes, anchor);
-    const auto shape = elements::eval_shape<double, N>(p);
-    elements::BeamShape<Series, N> moved_shape;
-    if (!state.unsettled.empty()) {
-      PortMotion<Series> moved[N];
-      for (int i = 0; i < N; ++i) moved[i] = with_unsettled(p[i], e.ports[i], state);
-      moved_shape = elements::eval_shape<Series, N>(moved);
-    }
-    Vec6<double> force[P];
-    double at[P];
-    for (int g = 0; g < P; ++g) {
-      at[g] = 0.0;
-      for (int i = 0; i < N; ++i) at[g] += elements::strain_rule<N>().shape[g][i] * i / (N - 1);
-      Vec6<double> strain = elements::eval_strain<double, N>(shape, e.length, g);
-      strain -= e.reference_strain[g];
-      if (!state.unsettled.empty()) {
-        const Vec6<Series> change = elements::eval_strain<Series, N>(moved_shape, e.length, g);
-        for (int k = 0; k < 6; ++k) strain[k] += change[k].c[1];
-      }
-      force[g] = e.stiffness * strain;
-    }
-    const Vec6<double> first = (1.0 / (at[1] - at[0])) * (force[1] - force[0]),
-                       second = (1.0 / (at[2] - at[1])) * (force[2] - force[1]);
-    return (1.0 / (at[2] - at[0])) * (second - first);
-  }
-}
-
-/// Sectional force of an element at s in [0, 1]: nodal equilibrium at the ends, and between them a straight line or the
-/// parabola that the strains give.
-struct ElementForce {
-  Vec6<double> first, last, curvature;
-  template <class E>
-  ElementForce(const step::System& system, const E& e, const std::vector<int>& loads, const Field& f,
-               const step::State& state)
-      : curvature(eval_force_curvature(e, f, state)) {
-    eval_end_wrenches(system, e, loads, f, state, first, last);
-  }
-  Vec6<double> at(double s) const { return (1.0 - s) * first + s * last + (s * (s - 1.0)) * curvature; }
-};
-
 }  // namespace
 
 PointMotion motion_at(const step::System& system, const step::State& state, const plan::SensorPlan& s) {
@@ -208,19 +106,26 @@ PointMotion motion_at(const step::System& system, const step::State& state, cons
   return {p.pose, p.v, p.a};
 }
 
-Vec6<double> section_strain_at(const step::System& system, const step::State& state, const plan::SensorPlan& s) {
-  return eval_station(system, system.instant().field(state), s).strain;
-}
-
 Vec6<double> section_force_at(const step::System& system, const step::State& state, const plan::SensorPlan& s) {
   const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
   const auto [k, local] = locate(beam, s.sensor.station);
   const auto element = static_cast<std::size_t>(k);
   Vec6<double> force;
   with_beam_element(system.plan(), beam.elements[element], [&, at = local](const auto& e) {
-    force = ElementForce(system, e, beam.loads[element], system.instant().field(state), state).at(at);
+    const Field f = system.instant().field(state);
+    force = ElementForce(system, e, beam.loads[element], f, state).at(at);
   });
   return force;
+}
+
+Vec6<double> section_strain_at(const step::System& system, const step::State& state, const plan::SensorPlan& s) {
+  if (system.plan().is_dynamic) return eval_station(system, system.instant().field(state), s).strain;
+  const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
+  const auto element = static_cast<std::size_t>(locate(beam, s.sensor.station).first);
+  Vec6<double> strain;
+  with_beam_element(system.plan(), beam.elements[element],
+                    [&](const auto& e) { strain = strain_of(e.stiffness, section_force_at(system, state, s)); });
+  return strain;
 }
 
 namespace {
@@ -250,10 +155,13 @@ records::Curve make_curve(const plan::BeamPlan& beam, const step::System& system
   curve.name = beam.name;
   for (std::size_t k = 0; k < beam.elements.size(); ++k)
     with_beam_element(system.plan(), beam.elements[k], [&](const auto& e) {
-      const ElementForce along(system, e, beam.loads[k], f, state);
+      ElementForce along(system, e, beam.loads[k], f, state);
       for (int i = k == 0 ? 0 : 1; i <= parts; ++i) {
         const double s = static_cast<double>(i) / parts;
-        curve.points.push_back(make_curve_point(eval_point(e, f, s), along.at(s)));
+        const Vec6<double> force = along.at(s);
+        BeamPoint point = eval_point(e, f, s);
+        if (!system.plan().is_dynamic) point.strain = strain_of(e.stiffness, force);
+        curve.points.push_back(make_curve_point(point, force));
       }
     });
   return curve;
@@ -274,6 +182,12 @@ records::BodyPose make_body_pose(const plan::BodyPlan& body, const Field& f) {
   return pose;
 }
 
+/// Velocity of a port's origin in the axes of the ground.
+Vec3<double> velocity_of(const Port& port, const Field& f) {
+  const PointMotion p = motion_of_port(port, f);
+  return p.pose.R * lanes::linear_part(p.v);
+}
+
 /// Calls visit(name, first port, second port) for joints, springs, bushings and prescribed motions, in the order of
 /// MotionFrame::links.
 template <class Visit>
@@ -291,6 +205,7 @@ template <class E>
 records::Arrow arrow_at(const E& e, int port, const std::string& name, const Field& f) {
   records::Arrow arrow{name, {}, {}, {}, E::num_ports > 1};
   copy(position_of(f, e.ports[port]), arrow.position);
+  copy(velocity_of(e.ports[port], f), arrow.velocity);
   Vec6<double> w = f.around.laws[e.law] * e.wrench;
   if (e.follows) w = turned(motion_of_port(e.ports[port], f).pose.R, w);
   std::copy_n(w.v, 3, arrow.force);
@@ -339,6 +254,8 @@ records::MotionFrame eval_motion(const step::System& system, const step::State& 
     copy(position_of(f, first), link.first);
     copy(position_of(f, second), link.second);
     copy(motion_of_port(first, f).pose.R, link.axes);
+    copy(velocity_of(first, f), link.first_velocity);
+    copy(velocity_of(second, f), link.second_velocity);
     frame.links.push_back(link);
   });
   for (std::size_t k = 0; k < plan.frames.size(); ++k) {
@@ -347,6 +264,7 @@ records::MotionFrame eval_motion(const step::System& system, const step::State& 
     moving.name = plan.frames[k].name;
     copy(pose.x, moving.position);
     copy(pose.R, moving.axes);
+    copy(pose.R * lanes::linear_part(f.carriers[k].twist), moving.velocity);
   }
   add_arrows(plan, f, frame.arrows);
   for (std::size_t i = 0; i < plan.signals.size(); ++i)

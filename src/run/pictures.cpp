@@ -20,7 +20,7 @@ struct PictureBytes {
 PictureBytes bytes_of(const records::MotionFrame& frame, const records::MotionParts& parts) {
   PictureBytes bytes;
   const auto others = static_cast<double>(frame.bodies.size() + frame.links.size() + frame.arrows.size());
-  bytes.motion += 36.0 * others;
+  bytes.motion += 60.0 * others;
   bytes.vtu += 100.0 * others;
   for (const int mesh : parts.bodies)
     if (mesh >= 0) bytes.vtu += 16.0 * static_cast<double>(parts.meshes[static_cast<std::size_t>(mesh)].points.size());
@@ -49,12 +49,19 @@ bool Pictures::is_passed(double time, int interval) const {
   return time >= (1.0 - 1e-9) * end_ * interval / most_intervals_;
 }
 
-bool Pictures::is_due(long row, double time, bool is_last) const {
+/// Room for pictures by turns is given out as time goes on, so that one fast part of a run does not take all.
+bool Pictures::has_room(double time) const {
+  constexpr int at_once = 50;
+  return taken_by_turn_ < std::min<double>(most_by_turn_, at_once + most_by_turn_ * time / end_);
+}
+
+bool Pictures::is_due(long row, double time, double turn, bool is_last) const {
   if (!is_wanted_ || is_last) return is_wanted_;
   if (stride_ > 0) return row % stride_ == 0;
   if (follows_path_) return true;  // the length of the path is unknown before its end
   // The first step that ends at or after the next interval is drawn.
-  return row == 0 || is_passed(time, next_);
+  constexpr double turn_between = records::largest_turn / 3.0;  // readers may leave out every second picture
+  return row == 0 || is_passed(time, next_) || (turn >= turn_between && has_room(time));
 }
 
 std::optional<std::string> Pictures::set_size(const records::MotionFrame& frame, const records::MotionParts& parts) {
@@ -63,6 +70,8 @@ std::optional<std::string> Pictures::set_size(const records::MotionFrame& frame,
   constexpr double most = 200e6, most_motion = 120e6;
   const PictureBytes bytes = bytes_of(frame, parts);
   most_intervals_ = static_cast<int>(std::clamp(most_motion / bytes.motion - 1.0, 2.0, 100.0));
+  constexpr double most_pictures = 3000.0;
+  most_by_turn_ = static_cast<int>(std::clamp(most_motion / bytes.motion, 0.0, most_pictures)) - most_intervals_;
   const double left = most - bytes.motion * (most_intervals_ + 1);
   others_every_ = static_cast<int>(std::ceil(most_intervals_ / std::max(1.0, left / bytes.vtu - 1.0)));
   if (most_intervals_ == 100 && others_every_ == 1) return std::nullopt;
@@ -72,6 +81,11 @@ std::optional<std::string> Pictures::set_size(const records::MotionFrame& frame,
 }
 
 bool Pictures::take(double time, bool is_last) {
+  // What is drawn because it has turned is not passed on: other programs do not draw what lies between pictures.
+  if (stride_ == 0 && !follows_path_ && taken_ > 0 && !is_last && !is_passed(time, next_)) {
+    ++taken_by_turn_;
+    return false;
+  }
   const bool is_for_others = taken_++ % others_every_ == 0 || is_last;
   while (next_ < most_intervals_ && is_passed(time, next_)) ++next_;
   return is_for_others;

@@ -9,15 +9,17 @@
 
 namespace bough::run {
 
-/// Selects the pictures of a motion. If the scene gives a stride, it is followed. Otherwise a run has at most 101
-/// pictures, one per interval of equal time (or load), and fewer if motion.bin would exceed 120 MB or all files 200 MB.
+/// Selects the pictures of a motion. If the scene gives a stride, it is followed. Otherwise a run has 101 pictures at
+/// most, one per interval of equal time (or load), and fewer if motion.bin would exceed 120 MB or all files 200 MB; and
+/// further ones wherever a part has turned by `turn_between` since the last one, as long as motion.bin has room.
 class Pictures {
  public:
   /// is_wanted: whether there are pictures at all.
   Pictures(const scene::Scene& scene, const plan::Plan& plan, bool is_wanted);
 
-  /// Whether the state at the end of step `row` (0: the start) is drawn.
-  bool is_due(long row, double time, bool is_last) const;
+  bool is_wanted() const { return is_wanted_; }
+  /// Whether the state at the end of step `row` (0: the start) is drawn; turn: TurnWatch::turn() since the last picture.
+  bool is_due(long row, double time, double turn, bool is_last) const;
   /// Whether `set_size` has to be called before the next picture.
   bool is_first() const { return is_first_; }
   /// Estimates the size of pictures from the first one. If fewer are kept because of their size, returns a note with
@@ -29,13 +31,15 @@ class Pictures {
 
  private:
   bool is_passed(double time, int interval) const;
+  bool has_room(double time) const;
 
   bool is_wanted_, follows_path_;
   int stride_;  ///< in steps; 0: not given
   double end_;  ///< [s], or load factor
   int most_intervals_ = 100, next_ = 1;
   int others_every_ = 1;  ///< a VTU file is written of every so many pictures
-  int taken_ = 0;
+  int taken_ = 0;         ///< of those at equal intervals or by the stride
+  int taken_by_turn_ = 0, most_by_turn_ = 0;
   bool is_first_ = true;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/io/number_text.hpp"
 #include "bough/plan/history_header.hpp"
 #include "bough/results/observe.hpp"
 #include "bough/scene/analysis_kinds.hpp"
@@ -106,7 +107,8 @@ void Recording::record(const step::State& state, double step_size, int iteration
     gate_.look_at(summary().header, row_);
     recorder_.row(row_);
   }
-  if (pictures_.is_due(row, state.time, is_last)) draw(state, is_last);
+  if (pictures_.is_wanted() && turns_.has_begun()) turns_.look(system_, state);
+  if (pictures_.is_due(row, state.time, turns_.turn(), is_last)) draw(state, is_last);
   add_figures(state);
 }
 
@@ -119,6 +121,16 @@ void Recording::draw(const step::State& state, bool is_last) {
     recorder_.parts(parts);
   }
   frame.for_others = pictures_.take(state.time, is_last);
+  frame.turn = turns_.turn();
+  if (frame.turn > records::largest_turn && !is_turn_told_) {
+    is_turn_told_ = true;
+    account_.note(
+        "before time " + io::rounded_text(state.time, 4) + " a part turns by more than " +
+        io::rounded_text(records::largest_turn, 2) +
+        " rad from one picture to the next: pages show the nearer of the two there, and no motion between them; "
+        "output.motion_stride keeps more pictures, and smaller steps tell more of them apart");
+  }
+  turns_.begin(system_, state);
   recorder_.motion(frame);
 }
 

@@ -14,6 +14,7 @@
 #include "far_watch.hpp"
 #include "finite_gate.hpp"
 #include "pictures.hpp"
+#include "turn_watch.hpp"
 
 namespace bough::run {
 
@@ -62,6 +63,8 @@ class Recording {
   Conservation conservation_;
   FiniteGate gate_;
   Pictures pictures_;
+  TurnWatch turns_;  ///< since the last picture
+  bool is_turn_told_ = false;
   std::shared_ptr<const std::vector<scene::Expected>> asked_;  ///< expected figures, then measures that are figures
   ExpectedFigures figures_;
   Measures measures_;

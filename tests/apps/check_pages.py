@@ -8,6 +8,7 @@ like markup, long ones and right-to-left ones have to remain text. Exit status 7
 import csv
 import io
 import json
+import math
 import os
 import pathlib
 import struct
@@ -80,6 +81,28 @@ SWING = {
     "sensors": [{"name": "hinge", "kind": "joint_reaction", "joint": "hinge"}],
     "analysis": {"kind": "dynamic", "end_time": 0.5, "step_size": 0.01}, "output": {"motion": True},
 }
+
+
+def rotor(flight):
+    """Three blades that turn many times, on a base that flies far."""
+    blades = range(3)
+    ends = [[0, math.cos(2 * math.pi * k / 3), math.sin(2 * math.pi * k / 3)] for k in blades]
+    return {
+        "schema_version": 1,
+        "sections": [{"name": "s", "stiffness": {"EA": 1e8, "GA2": 1e8, "GA3": 1e8, "GJ": 1e5, "EI2": 1e5, "EI3": 1e5},
+                      "mass": {"mass_per_length": 1, "rotary": [1e-3, 1e-3, 1e-3]}}],
+        "bodies": [{"name": "base", "mass": 100, "inertia": [0.2, 0.2, 0.2]}, {"name": "hub", "mass": 1, "inertia": [0.002, 0.002, 0.002]}],
+        "nodes": [{"name": f"tip{k}", "position": ends[k]} for k in blades],
+        "beams": [{"name": f"blade{k}", "section": "s", "start": "hub", "end": f"tip{k}", "elements": 2} for k in blades],
+        "motions": [{"at": "base", "x": {"expression": f"{flight}*t"}, "y": 0, "z": 0, "rotation": "hold"}],
+        "joints": [{"name": "axle", "kind": "revolute", "first": "base", "second": "hub", "position": [0, 0, 0], "axis": [1, 0, 0],
+                    "drives": [{"law": 5, "rate": True}]}],
+        "initial_velocities": [{"of": name, "velocity": [flight, 0, 0], "angular_velocity": [0 if name == "base" else 5, 0, 0]}
+                               for name in ["base", "hub"]] +
+                              [{"of": f"blade{k}", "velocity": [flight, 0, 0], "angular_velocity": [5, 0, 0]} for k in blades],
+        "sensors": [{"name": "tip", "kind": "position", "at": "tip0"}],
+        "analysis": {"kind": "dynamic", "end_time": 40, "step_size": 0.02}, "output": {"motion": True},
+    }
 
 
 def call(*words, status=0):
@@ -292,6 +315,13 @@ def check_signals(chromium, page, runs):
     return faults + chromium.faults
 
 
+def check_lengths(chromium, page):
+    """Blades that turn keep their lengths in every picture that can be drawn, and there are pictures enough."""
+    chromium.open(page)
+    worst, pictures = chromium.evaluate((SOURCE / "tests/tools/view_lengths.js").read_text(encoding="utf-8"))
+    return [f"{page}: of {pictures} pictures lengths between two differ by {worst}"] if worst > 1e-3 or pictures < 400 else []
+
+
 def check_maps(chromium, page):
     chromium.open(page)
     return chromium.evaluate((SOURCE / "tests/tools/view_maps.js").read_text(encoding="utf-8"))
@@ -324,6 +354,7 @@ def main():
                 "motion of one of two runs": check_still(chromium, "moved/view.html"),
                 "signals": check_signals(chromium, "signals/view.html", ["signals"]) +
                            check_signals(chromium, "signals/both.html", ["signals", "of_signals"]),
+                "lengths": sum((check_lengths(chromium, make_view(f"turning_{v}", rotor(v))) for v in (0, 50)), []),
                 "maps of colours": check_maps(chromium, "robot_arm/view.html")}
         for name, found in more.items():
             print(f"{name}: {len(found)} faults")

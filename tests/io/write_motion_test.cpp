@@ -163,6 +163,14 @@ TEST(MotionFile, frames_come_back_to_single_precision_of_their_displacements) {
     records::MotionFrame f = sample_frame(0.25 * k);
     for (records::CurvePoint& p : f.curves[0].points) p.position[0] += far;
     f.signals = {{"command", 0.5 * k}, {"valve", -1.25}};
+    f.turn = 0.125 * k;
+    const double v = 2.0 + k;
+    f.curves[0].points[2].velocity[1] = v;
+    f.bodies[0].velocity[2] = 2.0 * v;
+    f.links[0].first_velocity[0] = 3.0 * v;
+    f.links[0].second_velocity[1] = 4.0 * v;
+    f.frames.push_back({"cart", {0.0, 0.0, 0.0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {5.0 * v, 0.0, 0.0}});
+    f.arrows.push_back({"push", {0.0, 0.0, 0.0}, {7.0, 0.0, 0.0}, {0.0, 8.0, 0.0}, false, {0.0, 0.0, 6.0 * v}});
     return f;
   };
   for (int k = 0; k < 4; ++k) writer.frame(moved(k));
@@ -179,6 +187,15 @@ TEST(MotionFile, frames_come_back_to_single_precision_of_their_displacements) {
   for (std::size_t k = 0; k < 4; ++k) {
     const records::MotionFrame expected = moved(static_cast<int>(k)), &got = motion.frames[k];
     EXPECT_EQ(got.time, expected.time);
+    EXPECT_EQ(got.turn, expected.turn);
+    const double v = 2.0 + static_cast<double>(k);
+    EXPECT_EQ(got.curves.at(0).points.at(2).velocity[1], v);
+    EXPECT_EQ(got.bodies.at(0).velocity[2], 2.0 * v);
+    EXPECT_EQ(got.links.at(0).first_velocity[0], 3.0 * v);
+    EXPECT_EQ(got.links.at(0).second_velocity[1], 4.0 * v);
+    EXPECT_EQ(got.frames.at(0).velocity[0], 5.0 * v);
+    EXPECT_EQ(got.arrows.at(0).velocity[2], 6.0 * v);
+    EXPECT_EQ(got.arrows.at(0).force[0], 7.0);
     EXPECT_EQ(got.curves.at(0).name, "beam");
     EXPECT_EQ(got.bodies.at(0).name, "crank");
     EXPECT_EQ(got.links.at(0).name, "hinge");
@@ -212,6 +229,26 @@ TEST(MotionFile, a_selection_is_even_and_holds_first_and_last) {
     for (std::size_t k = 1; k < frames.size(); ++k)
       EXPECT_NEAR(frames[k].time - frames[k - 1].time, 100.0 / static_cast<double>(expected - 1), 1.0);
   }
+}
+
+TEST(MotionFile, of_what_turns_as_many_frames_are_read_as_its_turns_need) {
+  const ScratchDirectory scratch;
+  MotionWriter writer(scratch / "motion.bin");
+  for (int k = 0; k <= 400; ++k) {
+    records::MotionFrame f = sample_frame(k);
+    f.turn = k == 0 ? 0.0 : 0.25;
+    writer.frame(f);
+  }
+  writer.commit();
+  const auto frames = read_motion_file(scratch / "motion.bin", 10).frames;
+  double sum = 0.0;
+  for (const records::MotionFrame& f : frames) {
+    EXPECT_LE(f.turn, records::largest_turn);
+    sum += f.turn;
+  }
+  EXPECT_EQ(sum, 100.0) << "turns of frames that are left out count for the next one";
+  EXPECT_EQ(frames.back().time, 400.0);
+  EXPECT_LT(frames.size(), 401u);
 }
 
 TEST(MotionFile, damaged_files_are_refused_in_words_and_frames_cut_off_do_not_count) {

@@ -2,6 +2,7 @@
 #include <limits>
 #include <regex>
 
+#include "../../src/report/between_frames.hpp"
 #include "../../src/report/packed.hpp"
 #include "../../src/report/pixel_text.hpp"
 #include "../../src/report/round_off.hpp"
@@ -80,6 +81,89 @@ std::array<double, 4> ends_of(const std::string& path) {
     ends[3] = std::stod((*it)[2]);
   }
   return ends;
+}
+
+/// A rotor whose hub flies along y, as pictures after every `turn` radians: a blade from 0.2 to 1 m about the hub, a body
+/// at its tip held from the hub, a link and a load there.
+std::vector<records::MotionFrame> rotor_motion(double turn, double flight, int num_frames = 20) {
+  std::vector<records::MotionFrame> frames;
+  for (int k = 0; k < num_frames; ++k) {
+    records::MotionFrame f;
+    f.time = 0.1 * k;
+    f.turn = k > 0 ? turn : 0.0;
+    const double angle = turn * k, spin = turn / 0.1, c = std::cos(angle), s = std::sin(angle), y = flight * f.time;
+    const auto put = [&](double r, double* x, double* v) {
+      const double place[3] = {r * c, y + r * s, 0.5}, velocity[3] = {-r * spin * s, flight + r * spin * c, 0.0};
+      std::copy_n(place, 3, x);
+      std::copy_n(velocity, 3, v);
+    };
+    const double axes[9] = {c, -s, 0, s, c, 0, 0, 0, 1};
+    records::Curve blade{"blade", {}};
+    for (const double r : {0.2, 0.4, 0.6, 0.8, 1.0}) {
+      records::CurvePoint& p = blade.points.emplace_back();
+      put(r, p.position, p.velocity);
+      std::copy_n(axes, 9, p.axes);
+    }
+    records::BodyPose tip{"tip", {}, {}, {}};
+    put(1.0, tip.center, tip.velocity);
+    std::copy_n(tip.center, 3, tip.position);
+    std::copy_n(axes, 9, tip.axes);
+    tip.attachments = {{0.0, y, 0.5}};
+    records::Link rod{"rod", {}, {}};
+    put(0.0, rod.first, rod.first_velocity);
+    put(1.0, rod.second, rod.second_velocity);
+    records::Arrow load{"load", {}, {}, {}};
+    put(1.0, load.position, load.velocity);
+    f.curves = {blade};
+    f.bodies = {tip};
+    f.links = {rod};
+    f.arrows = {load};
+    frames.push_back(std::move(f));
+  }
+  return frames;
+}
+double distance(const double* a, const double* b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+TEST(BetweenFrames, what_turns_keeps_its_length_and_stays_where_it_belongs) {
+  for (const double turn : {0.25, 0.5, 0.75})
+    for (const double flight : {0.0, 30.0}) {
+      const std::vector<records::MotionFrame> frames = rotor_motion(turn, flight);
+      for (double t = 0.0; t <= 1.9; t += 0.00713) {
+        const records::MotionFrame f = frame_at(frames, t, true);
+        SCOPED_TRACE(t);
+        const std::vector<records::CurvePoint>& blade = f.curves[0].points;
+        EXPECT_NEAR(distance(blade.front().position, blade.back().position), 0.8, 1e-3 * 0.8);
+        EXPECT_NEAR(distance(f.links[0].first, f.links[0].second), 1.0, 1e-3);
+        EXPECT_NEAR(distance(f.bodies[0].center, f.bodies[0].attachments[0].data()), 1.0, 1e-12) << "a body is rigid";
+        EXPECT_LT(distance(f.bodies[0].center, blade.back().position), 1e-9);
+        EXPECT_LT(distance(f.arrows[0].position, blade.back().position), 1e-9);
+        const double angle = turn * t / 0.1, place[3] = {std::cos(angle), flight * t + std::sin(angle), 0.5};
+        EXPECT_LT(distance(blade.back().position, place), 1e-3);
+        EXPECT_NEAR(blade.back().axes[0], std::cos(angle), 1e-6);
+      }
+    }
+}
+
+TEST(BetweenFrames, after_too_large_a_turn_the_nearer_frame_stands) {
+  const std::vector<records::MotionFrame> frames = rotor_motion(2.0, 0.0);
+  for (const auto& [time, nearest] : {std::pair{0.34, 3}, std::pair{0.36, 4}}) {
+    const records::MotionFrame f = frame_at(frames, time, true);
+    for (std::size_t k = 0; k < 5; ++k)
+      EXPECT_EQ(distance(f.curves[0].points[k].position,
+                         frames[static_cast<std::size_t>(nearest)].curves[0].points[k].position),
+                0.0);
+  }
+}
+
+// Statics has no velocities: parabolas through neighbours.
+TEST(BetweenFrames, of_statics_follow_the_curve_of_its_load_steps) {
+  std::vector<records::MotionFrame> frames = rotor_motion(0.4, 0.0);
+  for (records::MotionFrame& f : frames)
+    for (records::CurvePoint& p : f.curves[0].points) std::fill_n(p.velocity, 3, 0.0);
+  for (double t = 0.1; t <= 1.8; t += 0.0093) {  // the first and the last step are half as well known
+    const std::vector<records::CurvePoint> blade = frame_at(frames, t, false).curves[0].points;
+    EXPECT_NEAR(distance(blade.front().position, blade.back().position), 0.8, 6e-3) << t;
+  }
 }
 
 TEST(Picture, has_equal_axes_whatever_the_shape) {

@@ -146,6 +146,43 @@ TEST(Pictures, moving_frames_are_where_their_laws_put_them) {
   }
 }
 
+/// A rotor at 5 rad/s, of one blade.
+std::string rotor(double end_time, const std::string& output, double step = 0.01) {
+  return R"({"schema_version": 1,
+    "bodies": [{"name": "hub", "mass": 1, "inertia": [1, 1, 1]}],
+    "joints": [{"name": "axle", "kind": "revolute", "first": "ground", "second": "hub", "axis": [0, 0, 1],
+      "drives": [{"law": 5, "rate": true}]}],
+    "initial_velocities": [{"of": "hub", "angular_velocity": [0, 0, 5]}],
+    "analysis": {"kind": "dynamic", "end_time": )" +
+         std::to_string(end_time) + R"(, "step_size": )" + std::to_string(step) + R"(}, "output": )" + output + "}";
+}
+
+// 100 s are eighty turns: with pictures at equal times alone, five radians would lie between two.
+TEST(Pictures, are_taken_wherever_a_part_has_turned) {
+  const Pictures p = pictures_of(rotor(100.0, R"({"motion": true})"));
+  EXPECT_GT(p.frames.size(), 1000u);
+  std::size_t for_others = 0;
+  for (std::size_t k = 1; k < p.frames.size(); ++k) {
+    const double turned = 5.0 * (p.frames[k].time - p.frames[k - 1].time);
+    EXPECT_LE(turned, 0.31) << "a quarter of a radian, and a step";
+    EXPECT_NEAR(p.frames[k].turn, turned, 1e-9);
+    for_others += p.frames[k].for_others ? 1 : 0;
+  }
+  EXPECT_LE(for_others, 101u) << "programs that draw nothing between pictures get those at equal times";
+  EXPECT_GE(for_others, 99u);
+  for (const std::string& note : p.summary.notes) EXPECT_EQ(note.find("turns by more"), std::string::npos) << note;
+}
+
+TEST(Pictures, that_lie_too_far_apart_are_told) {
+  const Pictures p = pictures_of(rotor(10.0, R"({"motion": true, "motion_stride": 50})"));
+  EXPECT_EQ(p.frames.size(), 21u) << "a stride is followed";
+  EXPECT_NEAR(p.frames[1].turn, 2.5, 1e-9);
+  bool is_told = false;
+  for (const std::string& note : p.summary.notes)
+    is_told |= note.find("turns by more than 0.75 rad") != std::string::npos;
+  EXPECT_TRUE(is_told);
+}
+
 TEST(Pictures, of_a_small_structure_every_picture_is_a_file_for_other_programs_too) {
   const Pictures p = pictures_of(R"({"schema_version": 1,
     "bodies": [{"name": "a", "kind": "point_mass", "mass": 1}],

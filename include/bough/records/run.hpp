@@ -56,11 +56,14 @@ struct Link {
   double first[3];
   double second[3];
   double axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< joint frame on the first side; unused for springs
+  double first_velocity[3] = {};                 ///< of both sides [m/s]
+  double second_velocity[3] = {};
 };
 struct FramePose {
   std::string name;
   double position[3];
   double axes[9];
+  double velocity[3] = {};  ///< of the origin [m/s]
 };
 /// A point load, or one point of a line load: its present value in the axes of the ground.
 struct Arrow {
@@ -69,14 +72,20 @@ struct Arrow {
   double force[3];             ///< [N], of a line load [N/m]
   double moment[3];            ///< [N m], of a line load [N]
   bool is_per_length = false;  ///< of a line load, per reference length
+  double velocity[3] = {};     ///< of the point on which it acts [m/s]
 };
 /// Value of a signal that changes with the motion, in its own unit.
 struct SignalValue {
   std::string name;
   double value = 0.0;
 };
+/// The motion between two frames follows from places and velocities, as cubics. After a turn by phi these are off by
+/// phi^4/384 of the radius, here 1e-3 [rad].
+inline constexpr double largest_turn = 0.75;
 struct MotionFrame {
   double time = 0.0;
+  /// How far a part has been turned since the frame before, at most, at any time in between [rad].
+  double turn = 0.0;
   std::vector<Curve> curves;
   std::vector<BodyPose> bodies;
   std::vector<Link> links;

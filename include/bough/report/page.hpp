@@ -26,6 +26,8 @@ struct RunFiles {
 RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames = 301);
 
 bool is_static(const RunFiles& run);  ///< its histories are functions of the load factor
+/// Whether velocities of its motion are derivatives of the places by what the histories are functions of.
+bool has_velocities(const RunFiles& run);
 
 /// The run with the number of the step instead of the load factor, which becomes a sensor. Along a path load factors
 /// may turn back, so that nothing is a function of them.

@@ -9,21 +9,16 @@ async function unpack(base64) {
   return new Response(stream).arrayBuffer();
 }
 
-// Differences between frames, modulo the width of the type, low and high bytes apart: what is at rest is a row of zeros.
-function undoDifferences16(bytes, frames) {
-  const count = bytes.length / 2,
-    values = new Uint16Array(count),
-    row = count / frames;
+// Differences between frames, modulo the width of the type, lowest bytes of all first: what is at rest is a row of zeros.
+function undoDifferences(bytes, width, frames, values) {
+  const count = bytes.length / width,
+    row = count / frames,
+    modulus = 2 ** (8 * width);
   for (let k = 0; k < count; ++k) {
-    const before = k >= row ? values[k - row] : 0;
-    values[k] = before + bytes[k] + (bytes[count + k] << 8);
+    let value = k >= row ? values[k - row] : 0;
+    for (let b = 0; b < width; ++b) value += bytes[b * count + k] * 2 ** (8 * b);
+    values[k] = value % modulus;
   }
-  return values;
-}
-function undoDifferences8(bytes, frames) {
-  const values = new Uint8Array(bytes.length),
-    row = bytes.length / frames;
-  for (let k = 0; k < bytes.length; ++k) values[k] = (k >= row ? values[k - row] : 0) + bytes[k];
   return values;
 }
 
@@ -36,8 +31,11 @@ async function readRun(run) {
     if (type === "f64") arrays[name] = new Float64Array(buffer, offset, count);
     else if (type === "f32") arrays[name] = new Float32Array(buffer, offset, count);
     else if (type === "u32") arrays[name] = new Uint32Array(buffer, offset, count);
-    else if (type === "d16") arrays[name] = undoDifferences16(new Uint8Array(buffer, offset, count), frames);
-    else if (type === "d8") arrays[name] = undoDifferences8(new Uint8Array(buffer, offset, count), frames);
+    else if (type[0] === "d") {
+      const width = Number(type.slice(1)) / 8,
+        Values = [Uint8Array, Uint16Array, Uint32Array][width - 1];
+      arrays[name] = undoDifferences(new Uint8Array(buffer, offset, count), width, frames, new Values(count / width));
+    }
   }
   run.data = arrays;
   return run;
@@ -57,56 +55,61 @@ function placeOf(times, time) {
   return {k: low, f: (time - times[low]) / (times[low + 1] - times[low])};
 }
 
-// Places and rotations of all tracks at a time, displacements and rotations from the start times `scale`.
+// Places and rotations of all tracks at a time, displacements and rotations from the start times `scale`. Between frames
+// places are cubics through displacements and velocities, so that what turns keeps its length; where a part turns too far
+// for that from one frame to the next, the nearer one is shown.
 function posesAt(run, time, scale, poses) {
-  const {start, low, step, displacement, rotation} = run.data,
+  const {start, low, step, fastest, displacement, velocity, rotation, turn} = run.data,
     tracks = step.length;
   poses = poses || {x: new Float32Array(3 * tracks), q: new Float32Array(4 * tracks)};
-  const {k, f} = placeOf(run.times, time),
-    last = run.times.length - 1;
-  const a = 3 * tracks * k,
-    b = 3 * tracks * Math.min(k + 1, last),
-    unit = 1 / 32767;
+  const place = placeOf(run.times, time),
+    last = run.times.length - 1,
+    k = place.k,
+    next = Math.min(k + 1, last),
+    f = turn[next] > run.largestTurn ? Math.round(place.f) : place.f,
+    h = run.times[next] - run.times[k],
+    bend = f * (1 - f);
   const signed = function (v) {
-    return (v > 32767 ? v - 65536 : v) * unit;
+    return (v > 32767 ? v - 65536 : v) / 32767;
   };
   for (let t = 0; t < tracks; ++t) {
-    let dot = 0;
-    const p = [0, 0, 0, 0],
-      r = [0, 0, 0, 0];
     for (let c = 0; c < 3; ++c) {
       const i = 3 * t + c,
-        u = displacement[a + i],
-        v = displacement[b + i];
-      poses.x[i] = start[i] + scale * (low[i] + step[t] * (u + f * (v - u)));
-      p[c] = signed(rotation[a + i]);
-      r[c] = signed(rotation[b + i]);
-      dot += p[c] * r[c];
+        a = 3 * tracks * k + i,
+        b = 3 * tracks * next + i,
+        way = step[t] * (displacement[b] - displacement[a]),
+        begin = h * fastest[t] * signed(velocity[a]) - way,
+        end = h * fastest[t] * signed(velocity[b]) - way;
+      const moved = low[i] + step[t] * displacement[a] + f * way + bend * ((1 - f) * begin - f * end);
+      poses.x[i] = start[i] + scale * moved;
     }
-    p[3] = Math.sqrt(Math.max(0, 1 - p[0] * p[0] - p[1] * p[1] - p[2] * p[2]));
-    r[3] = Math.sqrt(Math.max(0, 1 - r[0] * r[0] - r[1] * r[1] - r[2] * r[2]));
-    const sign = dot + p[3] * r[3] < 0 ? -1 : 1;
-    const q = [0, 0, 0, 0];
-    let norm = 0;
-    for (let c = 0; c < 4; ++c) {
-      q[c] = p[c] + f * (sign * r[c] - p[c]);
-      norm += q[c] * q[c];
-    }
-    norm = Math.sqrt(norm) || 1;
-    let turn = 1 / norm,
-      w = q[3] / norm;
-    if (scale !== 1) {
-      const half = Math.acos(Math.min(1, Math.max(-1, w))),
-        sine = Math.sin(half);
-      turn = sine > 1e-9 ? Math.sin(scale * half) / sine / norm : scale / norm;
-      w = Math.cos(scale * half);
-    }
-    poses.q[4 * t] = q[0] * turn;
-    poses.q[4 * t + 1] = q[1] * turn;
-    poses.q[4 * t + 2] = q[2] * turn;
-    poses.q[4 * t + 3] = w;
+    turnAt(rotation, 4 * (tracks * k + t), 4 * (tracks * next + t), f, scale, signed, poses.q, 4 * t);
   }
   return poses;
+}
+
+// The rotation between two quaternions at a and b of a list, its angle times scale.
+function turnAt(rotation, a, b, f, scale, signed, out, at) {
+  const q = [0, 0, 0, 0];
+  let dot = 0,
+    norm = 0;
+  for (let c = 0; c < 4; ++c) dot += signed(rotation[a + c]) * signed(rotation[b + c]);
+  for (let c = 0; c < 4; ++c) {
+    const p = signed(rotation[a + c]);
+    q[c] = p + f * ((dot < 0 ? -1 : 1) * signed(rotation[b + c]) - p);
+    norm += q[c] * q[c];
+  }
+  norm = (q[3] < 0 ? -1 : 1) * Math.sqrt(norm) || 1; // of the two that are one rotation that of the smaller angle
+  let part = 1 / norm,
+    w = q[3] / norm;
+  if (scale !== 1) {
+    const half = Math.acos(Math.min(1, w)),
+      sine = Math.sin(half);
+    part = sine > 1e-9 ? Math.sin(scale * half) / sine / norm : scale / norm;
+    w = Math.cos(scale * half);
+  }
+  for (let c = 0; c < 3; ++c) out[at + c] = q[c] * part;
+  out[at + 3] = w;
 }
 
 function number(v, digits) {
