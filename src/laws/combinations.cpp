@@ -98,6 +98,10 @@ class Rate final : public Node {
   void append_breaks(double t_begin, double t_end, int max_order, BreakList& breaks) const override {
     laws::append_breaks(law_, t_begin, t_end, max_order == any_order ? any_order : max_order + 1, breaks);
   }
+  Jet<Interval> range(double t_begin, double t_end) const override {
+    const Jet<Interval> g = range_of(law_, t_begin, t_end);
+    return {g.rate, g.acceleration, everything()};
+  }
   Law integral(double t0) const override { return make_quadrature_integral(Law{std::make_shared<Rate>(law_)}, t0); }
 
  private:
