@@ -16,7 +16,7 @@ std::vector<Field> keys_of(SignalField field) {
     case SignalField::coordinate:
       return {may("coordinate", word_rule("", {"angle", "displacement"}),
                   "Which of its coordinates. Default: the only one that the joint has.")};
-    case SignalField::part:
+    case SignalField::effort_part:
       return {effort_part_field()};
     case SignalField::component:
       return {need("component", word_rule("", {"fx", "fy", "fz", "mx", "my", "mz"}),

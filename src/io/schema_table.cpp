@@ -124,7 +124,8 @@ void add_parts(RuleTable& t) {
            "0"),
        may("curve", named_rule("curve"), "Default: straight."),
        may("elements", integer_rule("", 1, 1e6),
-           "Number of finite elements. Default: as many as have twelve nodes beside the first, 24 if the axis is curved, "
+           "Number of finite elements. Default: as many as have twelve nodes beside the first, 24 if the axis is "
+           "curved, "
            "which is told."),
        may("order", integer_rule("", 1, 3),
            "Polynomial order of the elements: 1 (two nodes), 2 or 3. Default: 3 without `elements`, else 1.")}));
@@ -300,7 +301,7 @@ Rule sensor_rule(const scene::SensorType& type) {
     fields.push_back(may("coordinate", word_rule("", coordinate_names()),
                          "Which one. Default: the only coordinate that the joint has; where it has several, one has to "
                          "be given."));
-  if (type.takes(SensorField::part)) fields.push_back(effort_part_field());
+  if (type.takes(SensorField::effort_part)) fields.push_back(effort_part_field());
   const std::string components = scene::components_text(type);
   const std::string& about = lasting(type.about + " Components: " + components + ".");
   Rule rule = object_of_kind({type.name}, about.c_str(), std::move(fields));

@@ -112,7 +112,7 @@ void check_sensor(ProblemList& list, std::size_t i) {
   if (!exists || type.of != SensorOf::coordinate) return;
   const Joint& joint = list.scene.joints[list.poses.find(s.joint)->index];
   check_coordinate(list, i, type_of(joint.kind));
-  if (type.takes(SensorField::part)) check_effort_part(list, "sensors", i, s.of, joint);
+  if (type.takes(SensorField::effort_part)) check_effort_part(list, "sensors", i, s.of, joint);
 }
 
 /// Finds tolerances that no result could meet.

@@ -137,7 +137,7 @@ std::vector<SensorType> make_types() {
        coordinate,
        force,
        in("N m", {""}),
-       {F::coordinate, F::part},
+       {F::coordinate, F::effort_part},
        "Torque on the second along a coordinate of a joint, of all that acts along it or of one part of that; of a "
        "displacement the force in N."},
   };

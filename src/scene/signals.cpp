@@ -64,7 +64,7 @@ const std::vector<SignalType>& signal_types() {
        "joint_effort",
        Reads::joint,
        2,
-       {Field::joint, Field::coordinate, Field::part},
+       {Field::joint, Field::coordinate, Field::effort_part},
        "N m or N",
        "Torque or force on the second along a coordinate: of all that acts along it, or of one part of that."},
       {Kind::spring_tension,

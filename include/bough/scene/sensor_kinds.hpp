@@ -32,12 +32,12 @@ enum class SensorShows : std::uint8_t {
 
 /// Fields that some kinds take besides those of what they are attached to.
 enum class SensorField : std::uint8_t {
-  axes,        ///< of the ground or of the body
-  observer,    ///< `frame`: a frame from which the motion is seen and in whose axes it is given
-  axes_of,     ///< `frame`: a frame, a node or a body in whose axes it is given
-  chain,       ///< `frames`
-  coordinate,  ///< of a joint
-  part,        ///< `of`: the part of an effort
+  axes,         ///< of the ground or of the body
+  observer,     ///< `frame`: a frame from which the motion is seen and in whose axes it is given
+  axes_of,      ///< `frame`: a frame, a node or a body in whose axes it is given
+  chain,        ///< `frames`
+  coordinate,   ///< of a joint
+  effort_part,  ///< `of`
 };
 
 struct SensorComponent {

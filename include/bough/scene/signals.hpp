@@ -16,7 +16,7 @@ enum class SignalReads : std::uint8_t { nothing, joint, spring, point, motion };
 enum class SignalField : std::uint8_t {
   joint,
   coordinate,
-  part,  ///< `of`: the part of an effort
+  effort_part,  ///< `of`
   component,
   part,  ///< `of` a prescribed motion or a load, and its `component`
   spring,
