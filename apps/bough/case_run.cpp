@@ -254,7 +254,8 @@ int finish_cases(const study::CaseTable& results, const std::vector<study::Measu
   }
   if (!settings.quiet) {
     std::cout << results.size() << " cases, " << num_failed << " not done, " << num_doubted
-              << " not to be trusted without a closer look, " << num_not_as_expected << " with an expected figure that fails: " << (settings.out / "batch.csv").string() << "\n";
+              << " not to be trusted without a closer look, " << num_not_as_expected
+              << " with an expected figure that fails: " << (settings.out / "batch.csv").string() << "\n";
   }
   if (settings.quiet && num_doubted > 0)
     std::cerr << "bough: " << num_doubted << " of " << results.size()

@@ -90,8 +90,9 @@ std::string result_text(const records::Summary& summary, const std::string& dire
                                                                      : "stopped";
   std::string text = summary.scene + ": " + words;
   if (!summary.doubts.empty())
-    text += ", not to be trusted without a closer look: " +
-            count_text(static_cast<long>(summary.doubts.size()), "doubt") + " below";
+    text +=
+        ", not to be trusted without a closer look: " + count_text(static_cast<long>(summary.doubts.size()), "doubt") +
+        " below";
   text += "\n";
   if (!summary.cause.empty()) text += "  cause: " + summary.cause + "\n";
   text += "  " + count_text(summary.steps.accepted, "step") + " accepted, " + std::to_string(summary.steps.rejected) +

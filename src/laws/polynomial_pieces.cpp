@@ -63,7 +63,8 @@ Jet<Interval> PolynomialPieces::range(double t_begin, double t_end) const {
     const double from = i > 0 ? std::max(t_begin, knots_[i - 1].time) : t_begin;
     const double to = i < knots_.size() ? std::min(t_end, knots_[i].time) : t_end;
     const Jet<Interval> s{{(from - piece.start) / piece.width, (to - piece.start) / piece.width},
-                          Interval(1.0 / piece.width), Interval(0.0)};
+                          Interval(1.0 / piece.width),
+                          Interval(0.0)};
     Jet<Interval> sum{};
     for (std::size_t k = piece.coefficients.size(); k-- > 0;)
       sum = sum * s + Jet<Interval>{piece.coefficients[k], Interval(0.0), Interval(0.0)};

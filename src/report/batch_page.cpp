@@ -32,9 +32,10 @@ Table status_table(const CaseTable& results, const std::vector<std::uint32_t>& e
   for (const std::uint32_t i : ended) ++counts[{results.status(i), is_good_but_doubted(results, i)}];
   Table table{{"status", "cases"}, {}};
   for (const auto& [kind, count] : counts)
-    table.rows.push_back({{std::string(study::text_of(kind.first)) + (kind.second ? ", not to be trusted as it is" : ""),
-                           is_good(kind.first) && !kind.second ? Tone::good : Tone::bad},
-                          number_cell(static_cast<double>(count), 9)});
+    table.rows.push_back(
+        {{std::string(study::text_of(kind.first)) + (kind.second ? ", not to be trusted as it is" : ""),
+          is_good(kind.first) && !kind.second ? Tone::good : Tone::bad},
+         number_cell(static_cast<double>(count), 9)});
   return table;
 }
 
@@ -253,8 +254,8 @@ std::string batch_page(const CaseTable& results, const std::string& title,
   const std::vector<std::uint32_t> ended = ended_cases(results, goes_on);
   const auto good = static_cast<std::size_t>(
       std::count_if(ended.begin(), ended.end(), [&](std::uint32_t i) { return is_good(results.status(i)); }));
-  const auto doubted = std::count_if(ended.begin(), ended.end(),
-                                     [&](std::uint32_t i) { return is_good_but_doubted(results, i); });
+  const auto doubted =
+      std::count_if(ended.begin(), ended.end(), [&](std::uint32_t i) { return is_good_but_doubted(results, i); });
   std::string lead = std::to_string(ended.size()) + " cases, " + std::to_string(good) + " ok";
   if (doubted > 0) lead += ", " + std::to_string(doubted) + " of them not to be trusted without a closer look";
   lead += ".";

@@ -27,7 +27,8 @@ void add_heading(Document& page, const RunFiles& run) {
                             : s.status == "failed" ? "The run failed."
                                                    : "The run was interrupted.";
   if (!s.doubts.empty()) {
-    std::string doubts = "Not to be trusted without a closer look. " + s.doubts[0].about + ": " + s.doubts[0].text + ".";
+    std::string doubts =
+        "Not to be trusted without a closer look. " + s.doubts[0].about + ": " + s.doubts[0].text + ".";
     if (s.doubts.size() > 1) doubts += " All " + std::to_string(s.doubts.size()) + " doubts stand below.";
     page.paragraph(doubts, Tone::bad);
   }

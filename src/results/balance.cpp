@@ -209,8 +209,7 @@ void Balance::compare(const Energies& now, const Supply& supply, double mass, do
   energy_error_ = std::max(energy_error_, std::abs(last_error_));
   // What dampers took has passed through the structure, and its integral has the error of what was supplied for it.
   const double passed = std::max(std::abs(supplied), supply.dissipation);
-  energy_scale_ =
-      std::max(energy_scale_, now.kinetic + now.strain + std::abs(now.potential - start_energy_) + passed);
+  energy_scale_ = std::max(energy_scale_, now.kinetic + now.strain + std::abs(now.potential - start_energy_) + passed);
   largest_energies_ = std::max(largest_energies_, now.kinetic + now.strain + std::abs(now.potential));
   const Vec6<double> change = now.momentum - start_momentum_;
   const double of_parts = std::sqrt(2.0 * mass * now.kinetic);  // sum of |p| <= (2 m T)^1/2

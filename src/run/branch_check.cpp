@@ -7,10 +7,10 @@ namespace bough::run {
 
 namespace {
 
-constexpr int halvings = 7;      ///< the last step is less than a hundredth of the load step
-constexpr double stays = 0.75;   ///< part of a motion in one half of a step, every time: it does not shrink
-constexpr double apart = 1e-3;   ///< of the motion of the step: farther apart, two equilibria are two
-constexpr double foretold = 1.0; ///< motion after the first correction, over that of the first
+constexpr int halvings = 7;       ///< the last step is less than a hundredth of the load step
+constexpr double stays = 0.75;    ///< part of a motion in one half of a step, every time: it does not shrink
+constexpr double apart = 1e-3;    ///< of the motion of the step: farther apart, two equilibria are two
+constexpr double foretold = 1.0;  ///< motion after the first correction, over that of the first
 
 /// Largest change of a place, over the size of the structure, or of an entry of a rotation matrix.
 double distance(const plan::Plan& plan, const step::State& a, const step::State& b) {
@@ -32,8 +32,8 @@ bool may_have_jumped(const step::StepReport& report) {
   return changes.size() > 2 && later > foretold * changes[0];
 }
 
-bool has_jumped(step::System& system, const step::StepOptions& options, const step::State& from,
-                const step::State& to, long& iterations) {
+bool has_jumped(step::System& system, const step::StepOptions& options, const step::State& from, const step::State& to,
+                long& iterations) {
   const plan::Plan& plan = system.plan();
   step::State low = from, high = to;
   const auto go = [&](step::State& state, double load_factor) {

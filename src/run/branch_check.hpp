@@ -12,7 +12,7 @@ bool may_have_jumped(const step::StepReport& report);
 /// that moves more. On a path motions shrink with the steps. Returns whether they do not, an equilibrium in between is
 /// not found, or smaller steps end elsewhere: then `to` is on another branch. Leaves the tangents and the factor of
 /// `to` in the system.
-bool has_jumped(step::System& system, const step::StepOptions& options, const step::State& from,
-                const step::State& to, long& iterations);
+bool has_jumped(step::System& system, const step::StepOptions& options, const step::State& from, const step::State& to,
+                long& iterations);
 
 }  // namespace bough::run

@@ -9,13 +9,14 @@ namespace bough::run {
 
 namespace {
 
-constexpr double share = 0.02;        ///< of the time of a run that errors may cost
-constexpr double always = 0.03;       ///< seconds that they may cost in any case
-constexpr double turn_a_step = 0.3;   ///< of the motion, in one step of the error [rad]: 20 steps a period
-constexpr double most_turn = 1.0;     ///< above this a step of the error does not resolve the motion [rad]
-constexpr double unresolved = 0.7;    ///< vibrations that turn farther in a step of the run are not resolved by it
+constexpr double share = 0.02;       ///< of the time of a run that errors may cost
+constexpr double always = 0.03;      ///< seconds that they may cost in any case
+constexpr double turn_a_step = 0.2;  ///< of vibrations, in one step of the error [rad]: 30 steps a period
+constexpr double spin_a_step = 0.1;  ///< of nodes, in one step of the error [rad]
+constexpr double excess = 2.0;       ///< by how much errors of that turn grow too fast, over (w h)^2 and the turn
+constexpr double most_turn = 1.0;    ///< above this a step of the error does not resolve the motion [rad]
 constexpr long most_stride = 128;
-constexpr double fewest = 24.0;       ///< steps of the error in a run: fewer tell nothing
+constexpr double fewest = 24.0;  ///< steps of the error in a run: fewer tell nothing
 
 constexpr double tolerance_share = 1e-3;  ///< of accelerations, that Newton's iteration leaves open
 
@@ -54,16 +55,28 @@ void CarriedError::restart(double time) {
   since_ = 0;
 }
 
-std::optional<step::Trouble> CarriedError::pass(const step::State& state, double steps_left, bool& is_carried) {
+/// Where constraints come to depend on each other, reactions have a pole, and their values at the ends of steps are
+/// those of chance. In the tangent they would push the error about.
+bool CarriedError::is_at_peak(const step::State& state) {
+  constexpr double peak = 4.0, part = 0.05;
+  constexpr long most_waits = 8;  // steps
+  double most = 0.0;
+  for (const double m : state.multipliers) most = std::max(most, std::abs(m));
+  const bool is_peak = reaction_ > 0.0 && most > peak * reaction_;
+  reaction_ = reaction_ > 0.0 ? (1.0 - part) * reaction_ + part * most : most;
+  return is_peak && since_ < stride_ + most_waits;
+}
+
+std::optional<step::Trouble> CarriedError::pass(const step::State& state, bool& is_carried) {
   is_carried = false;
   ++since_;
+  const bool waits = is_at_peak(state);
   if (since_ + 1 < stride_) return std::nullopt;
   if (!has_first_) local_.restart();
   if (auto t = local_.measure(system_, state)) return t;
-  if (since_ >= stride_) {
+  if (since_ >= stride_ && !waits) {
     if (auto t = carry(state)) return t;
     add(state, local_, static_cast<double>(since_));
-    choose_stride(state, local_, steps_left);
     is_carried = true;
     since_ = 0;
   }
@@ -73,23 +86,21 @@ std::optional<step::Trouble> CarriedError::pass(const step::State& state, double
 }
 
 std::optional<step::Trouble> CarriedError::pass(const step::State& state, const step::LocalError& local,
-                                                double steps_left, bool& is_carried) {
-  is_carried = ++since_ >= stride_;
+                                                bool& is_carried) {
+  is_carried = ++since_ >= stride_ && !is_at_peak(state);
   if (is_carried) {
     if (auto t = carry(state)) return t;
     since_ = 0;
   }
   add(state, local, 1.0);
-  if (is_carried) choose_stride(state, local, steps_left);
   return std::nullopt;
 }
 
 std::optional<step::Trouble> CarriedError::carry(const step::State& state) {
-  budget_ -= 1.0;
-  ++num_steps_;
+  budget_ -= 0.5;
   if (auto t = transport_.carry(state)) return t;
+  budget_ -= 0.1 * transport_.num_solutions();  // one is about a tenth of such a step
   largest_ = std::max(largest_, transport_.size());
-  if (state.time < 0.5 * duration_) largest_early_ = largest_;
   return std::nullopt;
 }
 
@@ -104,32 +115,25 @@ void CarriedError::add(const step::State& state, const step::LocalError& local, 
   transport_.disturb(state, steps * state.step_size * left_open_);
 }
 
-void CarriedError::choose_stride(const step::State& state, const step::LocalError& local, double steps_left) {
+void CarriedError::choose_stride(const step::State& state, double turn, double steps_left) {
   const double h = state.step_size, spent = h * static_cast<double>(stride_);
-  double most = 0.0, turn = 0.0, spin = 0.0;
-  const double length = system_.plan().length_scale;
+  double spin = 0.0;
   const std::vector<elements::NodeMotion>& nodes = nodes_in_space(system_.plan(), state);
-  const auto size = [length](const motion::Vec6<double>& v) {
-    return std::max(length_of(lanes::linear_part(v)) / length, length_of(lanes::angular_part(v)));
-  };
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    if (system_.places().node_begin(static_cast<int>(n)) < 0) continue;
-    spin = std::max(spin, length_of(lanes::angular_part(nodes[n].v)));
-    const step::LocalError::OfNode error = local.of_node(n);
-    const double place = size(error.place);
-    if (place <= most) continue;
-    most = place;
-    turn = size(error.change) / place;
-  }
-  if (turn > unresolved) turn = 0.0;
-  turn = std::max(turn, h * spin);
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (system_.places().node_begin(static_cast<int>(n)) >= 0)
+      spin = std::max(spin, length_of(lanes::angular_part(nodes[n].v)));
+  const double spun = spent * spin;
+  too_much_ += excess * spun * spun * spun;
   budget_ += share / cost_ * static_cast<double>(stride_);
   const double payable = std::max(budget_, 1.0) + share / cost_ * steps_left;
   const auto least = static_cast<long>(std::ceil(steps_left / payable));
-  const auto wanted = static_cast<long>(std::min(turn > 0.0 ? turn_a_step / turn : 1e6, 1e6));
+  const double steps = std::min(turn_a_step / std::max(turn, 1e-9), spin_a_step / std::max(h * spin, 1e-9));
+  const auto wanted = static_cast<long>(std::min(steps, 1e6));
   all_ += spent;
-  if (static_cast<double>(stride_) * turn > most_turn && stride_ > 1) unresolved_ += spent;
-  stride_ = std::clamp(std::max(least, wanted), 1L, most_stride);
+  const double turned = std::max(static_cast<double>(stride_) * turn, spun);
+  if ((turned > most_turn && stride_ > 1) || !transport_.is_solved()) unresolved_ += spent;
+  const long smooth = std::clamp(wanted, stride_ / 2, stride_ + 1 + stride_ / 4);  // jumps of the size leave their mark
+  stride_ = std::clamp(std::max(least, smooth), 1L, most_stride);
 }
 
 }  // namespace bough::run

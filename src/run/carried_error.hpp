@@ -1,5 +1,6 @@
 #pragma once
 /// The error of a run in time, carried along by the linearised motion, and when to do so.
+#include <cmath>
 #include <optional>
 
 #include "bough/step/error_transport.hpp"
@@ -21,10 +22,15 @@ class CarriedError {
 
   /// To be called for every accepted step of equal size, whose factor is still there. Returns whether the error was
   /// carried to this state.
-  [[nodiscard]] std::optional<step::Trouble> pass(const step::State& state, double steps_left, bool& is_carried);
+  [[nodiscard]] std::optional<step::Trouble> pass(const step::State& state, bool& is_carried);
   /// The same where the error of every step is measured.
   [[nodiscard]] std::optional<step::Trouble> pass(const step::State& state, const step::LocalError& local,
-                                                  double steps_left, bool& is_carried);
+                                                  bool& is_carried);
+  /// Whether the step to come is one of the last before the error is carried, in which its motion is to be looked at.
+  bool is_near() const { return since_ + looked_at >= stride_; }
+  static constexpr long looked_at = 3;
+  /// To be called once the error was carried. turn: of the motion in a step [rad].
+  void choose_stride(const step::State& state, double turn, double steps_left);
   /// The far side of a jump.
   void restart(double time);
 
@@ -32,25 +38,29 @@ class CarriedError {
   /// The time in which errors grew by e in the later half of the run [s]; 0: no faster than by a power of time.
   double grows_in() const;
   long num_steps() const { return num_steps_; }
+  /// The part of a carried error that is certain, where the rule makes errors of nodes that turn grow too fast.
+  double certain_part() const { return std::exp(-too_much_); }
   /// Whether its steps have resolved the motion.
   bool is_resolved() const { return unresolved_ <= 0.1 * all_; }
 
  private:
+  bool is_at_peak(const step::State& state);
   std::optional<step::Trouble> carry(const step::State& state);
   void add(const step::State& state, const step::LocalError& local, double steps);
-  void choose_stride(const step::State& state, const step::LocalError& local, double steps_left);
 
   step::System& system_;
   step::LocalError local_;
   step::ErrorTransport transport_;
-  double budget_;       ///< steps of the error that may still be taken beyond the share of the run
-  double left_open_;    ///< of accelerations, by the tolerance of equations [-]
-  double cost_;         ///< of one, in steps of the run
+  double budget_;     ///< steps of the error that may still be taken beyond the share of the run
+  double left_open_;  ///< of accelerations, by the tolerance of equations [-]
+  double cost_;       ///< of one, in steps of the run
   long stride_ = 1, since_ = 0;
   bool has_first_ = false;  ///< the error of the step before was measured
   double duration_;
   double largest_early_ = 0.0, largest_ = 0.0;  ///< errors in the first half of the run, and in all of it
   long num_steps_ = 0;
+  double reaction_ = 0.0;  ///< fading mean of the largest multiplier
+  double too_much_ = 0.0;
   double all_ = 0.0, unresolved_ = 0.0;  ///< durations [s]
 };
 

@@ -85,6 +85,35 @@ void ErrorWatch::look(const std::vector<double>& before, const std::vector<doubl
   passed_ = 0.0;
 }
 
+void ErrorWatch::follow(const std::vector<double>& values, bool is_next) {
+  constexpr double fading = 0.9;
+  followed_ = is_next ? followed_ + 1 : 0;
+  see(values);
+  for (Column& c : columns_) {
+    const double now = values[c.index], step = now - c.last, bend = step - c.step;
+    c.last = now;
+    if (followed_ == 0 || (c.jumps && std::abs(step) > flip)) continue;
+    c.step = step;
+    if (followed_ == 1) continue;
+    c.squared_steps = fading * c.squared_steps + step * step;
+    c.squared_bends = fading * c.squared_bends + bend * bend;
+  }
+}
+
+double ErrorWatch::turn() const {
+  constexpr double least_amplitude = 0.01;  // of the range
+  std::vector<double> ranges = least_range_;
+  for (const Column& c : columns_) ranges[c.group] = std::max(ranges[c.group], c.highest - c.lowest);
+  double most = 0.0;
+  for (const Column& c : columns_) {
+    if (!(c.squared_bends > 0.0)) continue;
+    const double turn = std::sqrt(c.squared_bends / c.squared_steps);
+    const double amplitude = std::sqrt(0.2 * c.squared_steps) / turn;  // 0.2: of the fading sum, the mean of squares
+    if (amplitude > least_amplitude * ranges[c.group]) most = std::max(most, turn);
+  }
+  return most;
+}
+
 void ErrorWatch::carry(const std::vector<double>& now, const std::vector<double>& displaced, double share) {
   has_carried_ = true;
   for (Column& c : columns_) {
@@ -131,8 +160,6 @@ std::vector<records::SensorError> ErrorWatch::errors(const records::HistoryHeade
     const double of_shift = c.squares > 0.0 ? std::sqrt(c.squared_rates / c.squares) : 0.0;
     const double of_energy = slowed * std::sqrt(c.squared_rates / looks);
     double of_steps = c.is_rate ? local * of_shift : local;
-    if (getenv("BOUGH_SHOW")) fprintf(stderr, "%s sum %g carried %g energy %g range %g\n", header.columns[c.index].c_str(), of_steps/ranges[c.group], c.carried/ranges[c.group], of_energy/ranges[c.group], ranges[c.group]);
-    if (takes_carried_ && has_carried_) of_steps = c.carried;
     found.push_back({header.columns[c.index], of_steps, of_energy, ranges[c.group]});
   }
   return found;

@@ -42,14 +42,22 @@ class ErrorWatch {
   /// its end, and at its end displaced by the local error.
   void look(const std::vector<double>& before, const std::vector<double>& now, const std::vector<double>& displaced,
             double norm, double h);
+  /// Follows the columns over consecutive steps; is_next: the last values are those of the step before.
+  void follow(const std::vector<double>& values, bool is_next);
+  /// By how much the fastest motion that a column shows, with more than a hundredth of its range, turns in a step [rad].
+  double turn() const;
   /// Adds what the error carried to a state makes of the columns: values there, and at the state displaced by `share` of
   /// the error. share: 0 if there is no error, below 0 if it is not finite.
   void carry(const std::vector<double>& now, const std::vector<double>& displaced, double share);
   /// Share of the size of the structure, or rad, of displacements by which an error is looked at: so small that sensors
   /// are linear in it.
   static constexpr double small = 1e-6;
-  /// To be called if the errors carried along hold: they take the place of the sums.
-  void take_carried() { takes_carried_ = true; }
+  /// To be called if the errors carried along hold: they take the place of the sums. Of those that are larger than the
+  /// sums this part is certain.
+  void take_carried(double certain_part) {
+    takes_carried_ = true;
+    certain_part_ = certain_part;
+  }
   /// Adds the energies of a row [J]: kinetic energy, all other energy, energy dissipated by the integrator so far, and
   /// the largest energy so far.
   void see_energies(double time, double kinetic, double other, double taken, double largest);
@@ -64,15 +72,19 @@ class ErrorWatch {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;  ///< range of values
     double share = 0.0;                                                          ///< |d| / norm at the last measurement
     double sum = 0.0;                                                            ///< A so far
-    double carried = 0.0;        ///< largest error carried so far
-    double squares = 0.0;        ///< sum of squared values at measurements
-    double squared_rates = 0.0;  ///< sum of squared ds/dt at measurements
+    double last = 0.0, step = 0.0;                    ///< values followed: the last, and its change
+    double squared_steps = 0.0, squared_bends = 0.0;  ///< fading sums of squared changes, and of their changes
+    double carried = 0.0;                             ///< largest error carried so far
+    double squares = 0.0;                             ///< sum of squared values at measurements
+    double squared_rates = 0.0;                       ///< sum of squared ds/dt at measurements
   };
   double slowed_by() const;
 
   std::vector<Column> columns_;
   std::vector<double> least_range_;  ///< by group of columns that share a unit and a sensor
   double passed_ = 0.0;              ///< sum of norms since the last measurement
+  double certain_part_ = 1.0;
+  int followed_ = 0;  ///< consecutive steps
   bool has_looked_ = false, has_carried_ = false, takes_carried_ = false;
   long rated_ = 0;          ///< number of measurements with rates
   bool is_driven_ = false;  ///< drives or frames prescribe a motion, which energy does not slow down

@@ -51,8 +51,8 @@ std::string FarWatch::text() const {
   }
   if (worst == nullptr) return {};
   return "the section forces of '" + worst->name + "' are known to " + io::rounded_text(worst->noise, 2) +
-         " N, of a component of up to " + io::rounded_text(worst->largest, 2) + " N: " +
-         io::rounded_text(worst->distance, 2) +
+         " N, of a component of up to " + io::rounded_text(worst->largest, 2) +
+         " N: " + io::rounded_text(worst->distance, 2) +
          " m from the origin places have few digits left, which stiff sections turn into forces; put the origin near "
          "the structure";
 }

@@ -12,12 +12,12 @@ namespace bough::run {
 namespace {
 
 constexpr std::size_t most_stretches = 4096;
-constexpr int samples = 512;          ///< of a law over the run, for the size of its changes
-constexpr double of_level = 1e-3;     ///< changes below this part of the values do not count
-constexpr double negligible = 0.01;   ///< of the impulse: bounds below it are not looked at more closely
-constexpr double missed_share = 0.05; ///< of the impulse: above this the steps do not see the law
-constexpr int most_work = 20000;      ///< evaluations of a law or its bounds
-constexpr int most_halvings = 20;     ///< of a step
+constexpr int samples = 512;           ///< of a law over the run, for the size of its changes
+constexpr double of_level = 1e-3;      ///< changes below this part of the values do not count
+constexpr double negligible = 0.01;    ///< of the impulse: bounds below it are not looked at more closely
+constexpr double missed_share = 0.05;  ///< of the impulse: above this the steps do not see the law
+constexpr int most_work = 20000;       ///< evaluations of a law or its bounds
+constexpr int most_halvings = 20;      ///< of a step
 
 struct Piece {
   double begin, step;
@@ -34,7 +34,8 @@ class Comparison {
   Piece piece(double begin, double step, long steps) {
     ++work_;
     const double duration = static_cast<double>(steps) * step;
-    return {begin, step, steps, duration * step * step / 12.0 * laws::largest_acceleration(law_, begin, begin + duration)};
+    return {begin, step, steps,
+            duration * step * step / 12.0 * laws::largest_acceleration(law_, begin, begin + duration)};
   }
   double value(double t, laws::Side side) {
     ++work_;
@@ -84,8 +85,9 @@ long parts_needed(Comparison& of, const Piece& p) {
     double sum = 0.0;
     const double h = p.step / static_cast<double>(parts);
     for (long k = 0; k < parts; ++k)
-      sum += 0.5 * h * (of.value(p.begin + static_cast<double>(k) * h, laws::Side::right) +
-                        of.value(k + 1 == parts ? end : p.begin + static_cast<double>(k + 1) * h, laws::Side::left));
+      sum += 0.5 * h *
+             (of.value(p.begin + static_cast<double>(k) * h, laws::Side::right) +
+              of.value(k + 1 == parts ? end : p.begin + static_cast<double>(k + 1) * h, laws::Side::left));
     return sum;
   };
   constexpr long most_parts = 4096;

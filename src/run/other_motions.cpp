@@ -17,7 +17,7 @@ bool is_alike(const plan::Plan& plan, const step::State& state) {
 
 scene::Scene in_all_motions(const scene::Scene& scene) {
   scene::Scene whole = scene;
-  whole.without.insert(whole.without.end(), {"planar", "line"});
+  whole.without.insert(whole.without.end(), {"planar", "line", "translation"});
   return whole;
 }
 
@@ -50,7 +50,7 @@ std::optional<int> HiddenMotions::count_own(const plan::Plan& plan, const step::
 HiddenMotions::Look HiddenMotions::look(const plan::Plan& plan, const step::State& state, std::optional<int> unstable) {
   if (!whole_) {
     whole_ = std::make_unique<Model>(Model{plan::make_plan(in_all_motions(scene_)), nullptr});
-    if (is_alike(whole_->plan, state))
+    if (whole_->plan.is_on<motion::Se3>() && is_alike(whole_->plan, state))
       whole_->system = std::make_unique<step::System>(whole_->plan, scene_.solver, schedule::make_serial_walker());
   }
   if (!whole_->system) return {};  // the plan with all motions has other rigid parts
@@ -81,7 +81,8 @@ FlutterLook look_for_flutter(const scene::Scene& scene, const plan::Plan& plan, 
   if (state.time != 1.0) return {false, "", std::string(none) + "the load factor is not 1"};
   if (!scene::problems_in(moving).empty()) return {false, "", std::string(none) + "there are parts without mass"};
   const plan::Plan whole = plan::make_plan(moving);
-  if (!is_alike(whole, state)) return {false, "", std::string(none) + "dynamics have other rigid parts"};
+  if (!whole.is_on<motion::Se3>() || !is_alike(whole, state))
+    return {false, "", std::string(none) + "dynamics have other rigid parts"};
   step::System system(whole, moving.solver, schedule::make_serial_walker());
   step::State there = step::make_spatial(plan, state);
   there.unsettled.clear();
@@ -92,11 +93,15 @@ FlutterLook look_for_flutter(const scene::Scene& scene, const plan::Plan& plan, 
   if (!found->is_there) return {true, "", ""};
   const std::string node = "'" + whole.nodes[static_cast<std::size_t>(found->node)].name + "'";
   if (found->frequency == 0.0)
-    return {true, "the last equilibrium is unstable: it is left, most by " + node + ", e times as far every " +
-                      io::rounded_text(1.0 / found->growth, 2) + " s", ""};
-  return {true, "the last equilibrium is unstable: it flutters, vibrations of " +
-                    io::rounded_text(found->frequency, 3) + " rad/s grow, most those of " + node + ", by e every " +
-                    io::rounded_text(1.0 / found->growth, 2) + " s (dampers left out)", ""};
+    return {true,
+            "the last equilibrium is unstable: it is left, most by " + node + ", e times as far every " +
+                io::rounded_text(1.0 / found->growth, 2) + " s",
+            ""};
+  return {true,
+          "the last equilibrium is unstable: it flutters, vibrations of " + io::rounded_text(found->frequency, 3) +
+              " rad/s grow, most those of " + node + ", by e every " + io::rounded_text(1.0 / found->growth, 2) +
+              " s (dampers left out)",
+          ""};
 }
 
 }  // namespace bough::run

@@ -64,5 +64,4 @@ std::string StabilityWatch::not_examined() const {
   return seen_.is_known ? "" : "stability is not examined";
 }
 
-
 }  // namespace bough::run

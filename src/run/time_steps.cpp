@@ -118,7 +118,7 @@ bool TimeSteps::take_step() {
     return false;
   }
   const bool goes_on = step_within_stretch();
-  if (goes_on && HiddenMotions::are_in(plan_)) look_at_hidden();
+  if (goes_on && has_hidden()) look_at_hidden();
   if (!goes_on || is_stretch_done()) recording_.end_stretch(state_);
   return goes_on;
 }
@@ -153,6 +153,7 @@ bool TimeSteps::start_integrator(double step_size) {
     recording_.add_figures(state_);
   }
   if (carried_) carried_->restart(state_.time);
+  is_followed_ = false;
   const step::StartReport started = integrator_->start(state_, options_, step_size);
   return started.ok || fail(started.cause);
 }
@@ -194,7 +195,12 @@ void TimeSteps::note_moved_start(const step::StartReport& consistent) {
 }
 
 /// Loads may make what the plan has left out unstable, as a beam that buckles sideways: the run would stay in its plane.
-/// Looks at the ends of equal parts of the run.
+/// Looks at the ends of equal parts of the run. Beams alone buckle, and the tangent tells of stability only where nothing
+/// but they moves: a mechanism or a body in flight is no equilibrium.
+bool TimeSteps::has_hidden() const {
+  return HiddenMotions::are_in(plan_) && !plan_.beams.empty() && plan_.mobility.degrees_of_freedom() == 0;
+}
+
 void TimeSteps::look_at_hidden() {
   constexpr double steps_a_look = 100.0, most_looks = 8.0;
   const double end = scene_.analysis.end_time;
@@ -256,20 +262,25 @@ void TimeSteps::watch_errors(double norm) {
 
 bool TimeSteps::carry_error(const step::LocalError* local) {
   if (!carried_) return true;
-  const double left = (scene_.analysis.end_time - state_.time) / last_step_;
+  const bool is_near = carried_->is_near();
   bool is_carried = false;
-  const auto t = local != nullptr ? carried_->pass(state_, *local, left, is_carried)
-                                  : carried_->pass(state_, left, is_carried);
+  const auto t = local != nullptr ? carried_->pass(state_, *local, is_carried) : carried_->pass(state_, is_carried);
   if (t) return fail(t->text);
+  if (is_near) {
+    seen_->see(plan_, state_);
+    seen_->eval(system_, values_now_);
+    recording_.error_watch()->follow(values_now_, is_followed_);
+  }
+  is_followed_ = is_near;
   if (!is_carried) return true;
+  const double left = (scene_.analysis.end_time - state_.time) / last_step_;
+  carried_->choose_stride(state_, recording_.error_watch()->turn(), left);
   const double size = carried_->transport().size();
   if (!std::isfinite(size)) {
     recording_.error_watch()->carry(values_now_, values_displaced_, -1.0);
     return true;
   }
   const double share = size > 0.0 ? ErrorWatch::small / size : 0.0;
-  seen_->see(plan_, state_);
-  seen_->eval(system_, values_now_);
   for (const int node : seen_->nodes())
     carried_->transport().displace(share, static_cast<std::size_t>(node), seen_->motion(node));
   seen_->eval(system_, values_displaced_);
@@ -279,8 +290,6 @@ bool TimeSteps::carry_error(const step::LocalError* local) {
 
 void TimeSteps::end_errors() {
   if (!carried_) return;
-  if (getenv("BOUGH_SHOW")) fprintf(stderr, "resolved %d grows in %g size %g steps %ld\n", carried_->is_resolved(), carried_->grows_in(), carried_->transport().size(), carried_->num_steps());
-  if (carried_->is_resolved()) recording_.error_watch()->take_carried();
 }
 
 void TimeSteps::sum_up() {
@@ -289,7 +298,8 @@ void TimeSteps::sum_up() {
 
 void TimeSteps::add_doubts() {
   // A moment of it is not enough: vibrations may pass through states that would be unstable if they lasted.
-  const bool lasts = hidden_unstable_ > 0 && (2 * hidden_unstable_ >= hidden_known_ || (ends_unstable_ && was_unstable_));
+  const bool lasts =
+      hidden_unstable_ > 0 && (2 * hidden_unstable_ >= hidden_known_ || (ends_unstable_ && was_unstable_));
   if (lasts || starts_unstable_)
     summary().doubts.push_back(
         {"stability", std::string(starts_unstable_ ? "the equilibrium in which the run starts" : "the motion") +
@@ -302,7 +312,7 @@ void TimeSteps::add_doubts() {
 }
 
 std::string TimeSteps::not_judged() const {
-  const bool is_hidden = HiddenMotions::are_in(plan_) && hidden_known_ == 0;
+  const bool is_hidden = HiddenMotions::are_in(plan_) && !plan_.beams.empty() && hidden_known_ == 0;
   return one_line({error_not_judged(plan_, options_, scene_.output.checks, summary().sensor_errors),
                    plan_.beams.empty() ? "" : the_mesh,
                    is_hidden ? "stability " + HiddenMotions::where(plan_) + " is not examined" : ""});

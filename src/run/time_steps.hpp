@@ -74,6 +74,7 @@ class TimeSteps : public Analysis {
  private:
   bool begin_in_equilibrium();
   void note_unstable_start();
+  bool has_hidden() const;
   void look_at_hidden();
   bool begin_next_stretch();
   /// Begins the rest of the present stretch anew.
@@ -88,6 +89,7 @@ class TimeSteps : public Analysis {
   bool starts_unstable_ = false, was_unstable_ = false, ends_unstable_ = false;  ///< start; last look but one; last
   std::string hidden_mode_;
   bool is_begun_ = false;
+  bool is_followed_ = false;                ///< sensors were looked at in the step before, for the error carried along
   bool has_jump_ = false;                   ///< an input was changed at the present time
   step::State tried_;                       ///< start of the first attempt of a failed step
   std::optional<ReactionWatch> reactions_;  ///< if checks are made and sensors show reactions

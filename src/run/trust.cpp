@@ -70,8 +70,8 @@ std::string remedy(const records::Summary& s, double excess) {
 std::string remedies(const records::Summary& s, const TrustLimits& limits, const TrustContext& more, double excess) {
   constexpr double out_of_reach = 1e4;  // a hundredth of the step, or of the tolerance as far as it goes
   const std::string bound = number(100.0 * limits.sensor_error) + " %";
-  const std::string sensitive = "the motion is sensitive, any disturbance grows by e every " +
-                                number(more.errors_grow_in) + " s";
+  const std::string sensitive =
+      "the motion is sensitive, any disturbance grows by e every " + number(more.errors_grow_in) + " s";
   if (more.errors_grow_in > 0.0 && !(excess < out_of_reach))
     return sensitive + ", so that no steps make it right to its end: end it earlier, or take what holds on average";
   return (more.errors_grow_in > 0.0 ? sensitive + "; " : "") + remedy(s, excess) + " would make it less than " + bound;

@@ -21,12 +21,15 @@ namespace {
 /// Numerical damping of what the steps do not resolve; a resolved vibration of 20 steps a period loses 4e-4 of its
 /// amplitude in one.
 constexpr double spectral_radius = 0.8;
-/// Solutions of one step. The matrix lacks the terms of z that turn with the nodes; they are of the order w h, which
-/// the second solution makes (w h)^2.
-constexpr int solutions = 2;
+/// The matrix lacks the terms of z that turn with the nodes. They are of the order w h, by which each solution of a step
+/// is nearer to the last: fewer are needed the less the nodes turn. What is left acts as a force that moves with the
+/// error and would make it grow in a thousand turns.
+constexpr int most_solutions = 14;
+constexpr double solved = 1e-6, not_solved = 1e-2;  ///< change by the last solution, relative to that over the step
+constexpr double rounding = 1e-6;  ///< of the error: smaller changes over a step are resolved no better
 /// Size of the velocities at which residuals are differenced, relative to the size of the structure in a step: far
-/// above round-off, and small enough for terms of second order.
-constexpr double difference = 1e-3;
+/// above round-off, and small enough that gyroscopic forces, which are quadratic, are linear to the same digits.
+constexpr double difference = 1e-6;
 
 Vec6<double> to_ground(const Mat3<double>& R, const Vec6<double>& v) {
   return join(R * linear_part(v), R * angular_part(v));
@@ -68,10 +71,13 @@ ErrorTransport::ErrorTransport(const ErrorTransport& other)
   second_ = other.second_;
   algorithmic_ = other.algorithmic_;
   signals_ = other.signals_;
+  step_ = other.step_;
+  random_ = other.random_;
 }
 
 void ErrorTransport::restart(double time) {
   time_ = time;
+  step_ = 0.0;
   std::fill(second_.begin(), second_.end(), Vec6<double>::zero());
   std::fill(algorithmic_.begin(), algorithmic_.end(), Vec6<double>::zero());
 }
@@ -100,14 +106,25 @@ std::optional<Trouble> ErrorTransport::carry(const State& state) {
 std::optional<Trouble> ErrorTransport::solve_rates(const State& state, double h) {
   const AlphaRule rule{make_alpha_coefficients(spectral_radius), h, FirstOrderRule(spectral_radius, h)};
   const elements::Slopes slopes = rule.slopes();
+  // a_n belongs to a time after the step that is a part of its size.
+  if (step_ > 0.0)
+    for (std::size_t n = 0; n < z_.size(); ++n)
+      algorithmic_[n] = second_[n] + (h / step_) * Vec6<double>(algorithmic_[n] - second_[n]);
+  step_ = h;
+  moved_ = state;
+  moved_.change_all([]<class G>(NodesOn<G>& of) {  // S is the derivative by eta alone, not by the increment of a step
+    for (auto& node : of.motion) node.dq = NodesOn<G>::Vector::zero();
+  });
   if (auto t = system_.set_time(state.time)) return t;
-  if (auto t = system_.evaluate(state, slopes, true)) return t;
+  if (auto t = system_.evaluate(moved_, slopes, true)) return t;
   base_ = system_.right_hand_side();
   if (auto t = system_.linear().factor(true, slopes)) return t;
   const std::vector<elements::NodeMotion>& nodes = nodes_in_space(plan_, state);
   for (std::size_t n = 0; n < nodes.size(); ++n) next_[n] = z_[n] + h * rate_[n];
-  moved_ = state;
-  for (int k = 0; k < solutions; ++k) {
+  num_solutions_ = 0;
+  is_solved_ = true;
+  double left = 1.0;
+  for (int k = 0; k < most_solutions && left > solved; ++k) {
     double most = 0.0;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       const auto now = rule.follow(Vec6<double>(next_[n] - z_[n]), rate_[n], second_[n], algorithmic_[n]);
@@ -136,9 +153,18 @@ std::optional<Trouble> ErrorTransport::solve_rates(const State& state, double h)
     if (auto t = system_.evaluate(moved_, {}, false)) return t;
     for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] = (system_.right_hand_side()[i] - base_[i]) / share;
     if (auto t = system_.linear().solve(rhs_.data(), x_.data(), false)) return t;
-    for (std::size_t n = 0; n < nodes.size(); ++n)
-      next_[n] = to_ground(nodes[n].R, system_.places().node_part(x_.data(), static_cast<int>(n)));
+    ++num_solutions_;
+    double change = 0.0, size = 0.0;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      const Vec6<double> z = to_ground(nodes[n].R, system_.places().node_part(x_.data(), static_cast<int>(n)));
+      change = std::max(change, size_of(Vec6<double>(z - next_[n]), plan_.length_scale));
+      size = std::max(
+          {size, size_of(Vec6<double>(z - z_[n]), plan_.length_scale), rounding * size_of(z, plan_.length_scale)});
+      next_[n] = z;
+    }
+    left = size > 0.0 ? change / size : 0.0;
   }
+  is_solved_ = left <= not_solved;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const auto now = rule.follow(Vec6<double>(next_[n] - z_[n]), rate_[n], second_[n], algorithmic_[n]);
     rate_[n] = now.v;
@@ -174,19 +200,18 @@ void ErrorTransport::add(const State& state, const LocalError& local, double ste
              (of_turn > 0.0 ? length_of(angular_part(eta)) / of_turn : 0.0) * angular_part(error.velocity));
     z_[n] += to_ground(nodes[n].R, eta);
     // dx' = R (du - u x eta_w)
-    rate_[n] += to_ground(
-        nodes[n].R, join(linear_part(dv) - cross(linear_part(nodes[n].v), angular_part(eta)), angular_part(dv)));
+    rate_[n] += to_ground(nodes[n].R,
+                          join(linear_part(dv) - cross(linear_part(nodes[n].v), angular_part(eta)), angular_part(dv)));
   }
 }
 
 void ErrorTransport::disturb(const State& state, double duration) {
-  constexpr double rounding = 0x1p-53;
   const std::vector<elements::NodeMotion>& nodes = nodes_in_space(plan_, state);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     if (system_.places().node_begin(static_cast<int>(n)) < 0) continue;
     const double u = length_of(linear_part(nodes[n].v)), w = length_of(angular_part(nodes[n].v));
-    const double linear = duration * (length_of(linear_part(nodes[n].a)) + w * u) + rounding * u;
-    const double angular = duration * (length_of(angular_part(nodes[n].a)) + w * w) + rounding * w;
+    const double linear = duration * (length_of(linear_part(nodes[n].a)) + w * u) + 0x1p-53 * u;
+    const double angular = duration * (length_of(angular_part(nodes[n].a)) + w * w) + 0x1p-53 * w;
     for (int i = 0; i < 6; ++i) {
       random_ = random_ * 6364136223846793005ULL + 1442695040888963407ULL;
       rate_[n][i] += (i < 3 ? linear : angular) * (static_cast<double>(random_ >> 11) * 0x1p-52 - 1.0);

@@ -29,8 +29,7 @@ class InverseTimesMass {
       const std::int64_t begin = system.places().node_begin(static_cast<int>(n));
       if (begin < 0) continue;
       const int count = plan.unknowns.count_of(n);
-      for (int i = 0; i < count; ++i)
-        weights_[begin + i] = plan.unknowns.is_length(i) ? 1.0 / plan.length_scale : 1.0;
+      for (int i = 0; i < count; ++i) weights_[begin + i] = plan.unknowns.is_length(i) ? 1.0 / plan.length_scale : 1.0;
     }
     rhs_.resize(system.places().size());
     y_ = rhs_;
@@ -117,7 +116,8 @@ std::optional<Flutter> find_flutter(System& system, const State& state) {
   for (int k = 0; k < count; ++k) {
     const std::complex<double> of = solver.eigenvalues()[k];  // 1 / squared frequency
     const Eigen::VectorXcd v = solver.eigenvectors().col(k);
-    if (std::abs(of) < slowest * largest || last * std::abs(v[count - 1]) > is_found * std::abs(of) * v.norm()) continue;
+    if (std::abs(of) < slowest * largest || last * std::abs(v[count - 1]) > is_found * std::abs(of) * v.norm())
+      continue;
     const std::complex<double> frequency = std::sqrt(1.0 / of);
     const double growth = std::abs(frequency.imag());
     if (growth <= least_growth * std::abs(frequency) || growth <= worst.growth) continue;

@@ -370,6 +370,22 @@ holds cmp good.out/history.csv batch/a/history.csv
 holds test ! -e batch/b
 rm scenes/b.json
 expect 0 '2 cases, 0 not done' batch scenes --out batch2
+# Doubts: in the first line, with --quiet too, counted in batches; --strict makes them exit status 1.
+mkdir doubted
+cat > doubted/pulse.json << 'END'
+{"schema_version": 1, "bodies": [{"name": "b", "kind": "point_mass", "mass": 1}],
+ "loads": [{"at": "b", "force": [1, 0, 0], "law": {"expression": "1e5*exp(-((t-0.5005)/5e-5)^2)"}}],
+ "sensors": [{"name": "x", "kind": "position", "at": "b"}],
+ "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 1e-3}}
+END
+expect 0 'pulse: done, not to be trusted' run doubted/pulse.json --out pulse1.out
+expect 0 'DOUBT (error)' run doubted/pulse.json --out pulse2.out --quiet
+expect 1 'DOUBT (error)' run doubted/pulse.json --out pulse3.out --quiet --strict
+expect 0 '1 not to be trusted' batch doubted --out batch4
+expect 0 '1 of 1 cases are not to be trusted' batch doubted --out batch5 --quiet
+expect 1 '1 of 1 cases are not to be trusted' batch doubted --out batch6 --quiet --strict
+expect 0 . view pulse1.out
+holds grep -q 'Not to be trusted without a closer look' pulse1.out/view.html
 mkdir empty
 expect 2 'no scene' batch empty --out batch3
 expect 2 'missing' batch missing --out batch3

@@ -44,6 +44,15 @@ TEST(BatchPage, no_text_of_a_scene_ends_a_script_or_opens_an_element) {
   EXPECT_GT(count_of(page, "&lt;img"), 3u);
 }
 
+TEST(BatchPage, cases_that_are_doubted_are_no_plain_ok) {
+  std::vector<CaseResult> results;
+  for (std::size_t k = 1; k <= 9; ++k) results.push_back(result_of(k, static_cast<double>(k)));
+  for (const std::size_t k : {1, 4}) results[k].report.doubts = {"error"};
+  const std::string page = batch_page(results, "t", {});
+  EXPECT_NE(page.find("9 cases, 9 ok, 2 of them not to be trusted without a closer look."), std::string::npos);
+  EXPECT_NE(page.find("ok, not to be trusted as it is"), std::string::npos);
+}
+
 TEST(BatchPage, failures_are_grouped_by_cause_whatever_numbers_it_holds) {
   std::vector<CaseResult> results;
   for (std::size_t k = 1; k <= 9; ++k) {

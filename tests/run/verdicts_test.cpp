@@ -46,7 +46,7 @@ std::string on_rail(const std::string& law, const std::string& analysis = R"("st
 }
 
 TEST(Verdict, a_pulse_shorter_than_a_step_is_told_and_one_that_steps_resolve_is_not) {
-  const char* const short_pulse = R"({"expression": "1e5*exp(-((t-0.5005)/5e-5)^2)"})";
+  const char* const short_pulse = R"({"expression": "1e5*exp(-((t-0.5005)/5e-5)^2) "})";
   const Outcome missed = run_of(on_rail(short_pulse));
   EXPECT_LT(std::abs(missed.history.last("v")), 0.5) << "of 8.86 m/s";
   EXPECT_NE(doubt(missed, "error", "do not see the law"), "") << all_doubts(missed);
@@ -54,22 +54,22 @@ TEST(Verdict, a_pulse_shorter_than_a_step_is_told_and_one_that_steps_resolve_is_
   if (std::abs(controlled.history.last("v") - 8.862) > 0.1) {
     EXPECT_NE(doubt(controlled, "error", "do not see the law"), "") << all_doubts(controlled);
   }
-  const Outcome beside = run_of(on_rail(R"({"expression": "200 + 30*t + 1e5*exp(-((t-0.5005)/5e-5)^2)"})"));
+  const Outcome beside = run_of(on_rail(R"({"expression": "200 + 30*t + 1e5*exp(-((t-0.5005)/5e-5)^2) "})"));
   EXPECT_NE(doubt(beside, "error", "do not see the law"), "") << "beside a load that steps see: " << all_doubts(beside);
-  const Outcome tiny = run_of(on_rail(R"({"expression": "1e9*exp(-((t-0.50037)/1e-8)^2)"})"));
+  const Outcome tiny = run_of(on_rail(R"({"expression": "1e9*exp(-((t-0.50037)/1e-8)^2) "})"));
   EXPECT_NE(doubt(tiny, "error", "do not see the law"), "") << "a hundred thousandth of a step: " << all_doubts(tiny);
-  const Outcome seen = run_of(on_rail(R"({"expression": "1e3*exp(-((t-0.5005)/5e-3)^2)"})"));
+  const Outcome seen = run_of(on_rail(R"({"expression": "1e3*exp(-((t-0.5005)/5e-3)^2) "})"));
   EXPECT_NEAR(seen.history.last("v"), 8.862, 0.01);
   EXPECT_EQ(all_doubts(seen), "");
 }
 
 TEST(Verdict, a_step_that_it_names_sees_the_pulse) {
-  const Outcome missed = run_of(on_rail(R"({"expression": "1e5*exp(-((t-0.5005)/5e-5)^2)"})"));
+  const Outcome missed = run_of(on_rail(R"({"expression": "1e5*exp(-((t-0.5005)/5e-5)^2) "})"));
   const std::string text = doubt(missed, "error", "take steps of ");
   ASSERT_NE(text, "");
   const std::string step = support::text(std::stod(text.substr(text.find("take steps of ") + 14)));
   const Outcome named =
-      run_of(on_rail(R"({"expression": "1e5*exp(-((t-0.5005)/5e-5)^2)"})", R"("step_size": )" + step));
+      run_of(on_rail(R"({"expression": "1e5*exp(-((t-0.5005)/5e-5)^2) "})", R"("step_size": )" + step));
   EXPECT_NEAR(named.history.last("v"), 8.862269, 0.1) << step;
   EXPECT_EQ(all_doubts(named), "");
 }
@@ -84,7 +84,7 @@ TEST(Verdict, a_wave_faster_than_the_steps_is_told) {
 TEST(Verdict, a_motion_given_by_a_pulse_between_steps_is_told) {
   const Outcome driven = run_of(R"({"bodies": [{"name": "b", "mass": 1, "inertia": [1, 1, 1]}],
     "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "b", "axis": [1, 0, 0],
-                "drives": [{"law": {"expression": "2*t + 0.1*exp(-((t-0.5005)/5e-5)^2)"}}]}],
+                "drives": [{"law": {"expression": "2*t + 0.1*exp(-((t-0.5005)/5e-5)^2) "}}]}],
     "initial_velocities": [{"of": "b", "velocity": [2, 0, 0]}],
     "sensors": [{"name": "x", "kind": "joint_displacement", "joint": "rail"}],
     "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 1e-3}})");
@@ -114,7 +114,7 @@ constexpr const char* forced = R"({
   "bodies": [{"name": "m", "mass": 800, "inertia": [1, 1, 1]}],
   "joints": [{"name": "j", "kind": "prismatic", "first": "ground", "second": "m", "axis": [0, 0, 1],
               "forces": [{"stiffness": 2600, "damping": 260}]}],
-  "loads": [{"at": "m", "force": [0, 0, 1950], "law": {"expression": "sin(2*pi*t/5)"}}],
+  "loads": [{"at": "m", "force": [0, 0, 1950], "law": {"expression": "sin(2*pi*t/5) "}}],
   "sensors": [{"name": "z", "kind": "joint_displacement", "joint": "j"}],
   "analysis": {"kind": "dynamic", "end_time": 1000, "step_size": 0.025}})";
 

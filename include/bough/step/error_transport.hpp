@@ -38,6 +38,10 @@ class ErrorTransport {
   /// rotation need as well as of the speed, and round-off, in directions that look random.
   void disturb(const State& state, double duration);
 
+  /// Whether the last step was solved, and how many solutions it took.
+  bool is_solved() const { return is_solved_; }
+  int num_solutions() const { return num_solutions_; }
+
   /// Largest displacement of the error so far, lengths over the size of the structure, or rad; infinite once it is not
   /// a finite number.
   double size() const;
@@ -64,7 +68,10 @@ class ErrorTransport {
   std::vector<motion::Vec6<double>> next_, extra_v_, extra_a_;         ///< scratch
   std::vector<double> base_, rhs_, x_;                                 ///< scratch, by unknown
   SignalValues signals_;                                               ///< errors of signals
+  double step_ = 0.0;  ///< of the error, the last [s]; 0: none since a start
   unsigned long long random_ = 20;
+  bool is_solved_ = true;
+  int num_solutions_ = 0;
 };
 
 }  // namespace bough::step
