@@ -105,74 +105,95 @@ std::optional<Trouble> ErrorTransport::carry(const State& state) {
 ///   S eta = -(R(v + s g_v, a + s g_a) - R(v, a)) / s,   g_v = du - c1 eta,   g_a = d(du)/dt - c2 eta
 std::optional<Trouble> ErrorTransport::solve_rates(const State& state, double h) {
   const AlphaRule rule{make_alpha_coefficients(spectral_radius), h, FirstOrderRule(spectral_radius, h)};
-  const elements::Slopes slopes = rule.slopes();
+  if (auto t = begin_step(state, rule)) return t;
+  const std::vector<elements::NodeMotion>& nodes = nodes_in_space(plan_, state);
+  for (std::size_t n = 0; n < nodes.size(); ++n) next_[n] = z_[n] + h * rate_[n];
+  num_solutions_ = 0;
+  double left = 1.0;
+  for (int k = 0; k < most_solutions && left > solved; ++k)
+    if (auto t = solve_once(state, rule, left)) return t;
+  is_solved_ = left <= not_solved;
+  if (num_solutions_ > 0) end_step(rule);
+  return std::nullopt;
+}
+
+/// Evaluates and factors the tangents of the run at the end of the step.
+std::optional<Trouble> ErrorTransport::begin_step(const State& state, const AlphaRule& rule) {
   // a_n belongs to a time after the step that is a part of its size.
   if (step_ > 0.0)
     for (std::size_t n = 0; n < z_.size(); ++n)
-      algorithmic_[n] = second_[n] + (h / step_) * Vec6<double>(algorithmic_[n] - second_[n]);
-  step_ = h;
+      algorithmic_[n] = second_[n] + (rule.h / step_) * Vec6<double>(algorithmic_[n] - second_[n]);
+  step_ = rule.h;
   moved_ = state;
   moved_.change_all([]<class G>(NodesOn<G>& of) {  // S is the derivative by eta alone, not by the increment of a step
     for (auto& node : of.motion) node.dq = NodesOn<G>::Vector::zero();
   });
+  const elements::Slopes slopes = rule.slopes();
   if (auto t = system_.set_time(state.time)) return t;
   if (auto t = system_.evaluate(moved_, slopes, true)) return t;
   base_ = system_.right_hand_side();
-  if (auto t = system_.linear().factor(true, slopes)) return t;
+  return system_.linear().factor(true, slopes);
+}
+
+/// One solution for next_. left: its change, relative to that over the step; 0 where there is no error.
+std::optional<Trouble> ErrorTransport::solve_once(const State& state, const AlphaRule& rule, double& left) {
   const std::vector<elements::NodeMotion>& nodes = nodes_in_space(plan_, state);
-  for (std::size_t n = 0; n < nodes.size(); ++n) next_[n] = z_[n] + h * rate_[n];
-  num_solutions_ = 0;
-  is_solved_ = true;
-  double left = 1.0;
-  for (int k = 0; k < most_solutions && left > solved; ++k) {
-    double most = 0.0;
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-      const auto now = rule.follow(Vec6<double>(next_[n] - z_[n]), rate_[n], second_[n], algorithmic_[n]);
-      const BodyRates body = rates_of(nodes[n], next_[n], now.v, now.a);
-      const Vec6<double> eta = to_node(nodes[n].R, next_[n]);
-      extra_v_[n] = body.v - slopes.velocity * eta;
-      extra_a_[n] = body.a - slopes.acceleration * eta;
-      most = std::max({most, h * length_of(linear_part(extra_v_[n])) / plan_.length_scale,
-                       h * length_of(angular_part(extra_v_[n])),
-                       h * h * length_of(linear_part(extra_a_[n])) / plan_.length_scale,
-                       h * h * length_of(angular_part(extra_a_[n]))});
-    }
-    for (const double r : signals_.algorithmic) most = std::max(most, h * std::abs(r));
-    if (!(most > 0.0) || !std::isfinite(most)) return std::nullopt;
-    const double share = difference / most;
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-      set_velocity(plan_, moved_, n, nodes[n].v + share * extra_v_[n]);
-      set_acceleration(plan_, moved_, n, nodes[n].a + share * extra_a_[n]);
-    }
-    for (std::size_t i = 0; i < plan::driving_signals(plan_).size(); ++i) {
-      if (!plan_.signals[i].is_state()) continue;
-      const double algorithmic = rule.states.algorithmic(0.0, signals_.value[i], signals_.algorithmic[i]);
-      moved_.signals.rate[i] =
-          state.signals.rate[i] + share * rule.states.rate(algorithmic, signals_.algorithmic[i], signals_.rate[i]);
-    }
-    if (auto t = system_.evaluate(moved_, {}, false)) return t;
-    for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] = (system_.right_hand_side()[i] - base_[i]) / share;
-    if (auto t = system_.linear().solve(rhs_.data(), x_.data(), false)) return t;
-    ++num_solutions_;
-    double change = 0.0, size = 0.0;
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-      const Vec6<double> z = to_ground(nodes[n].R, system_.places().node_part(x_.data(), static_cast<int>(n)));
-      change = std::max(change, size_of(Vec6<double>(z - next_[n]), plan_.length_scale));
-      size = std::max(
-          {size, size_of(Vec6<double>(z - z_[n]), plan_.length_scale), rounding * size_of(z, plan_.length_scale)});
-      next_[n] = z;
-    }
-    left = size > 0.0 ? change / size : 0.0;
-  }
-  is_solved_ = left <= not_solved;
+  const double most = find_extra_rates(nodes, rule);
+  left = 0.0;
+  if (!(most > 0.0) || !std::isfinite(most)) return std::nullopt;
+  const double share = difference / most;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
+    set_velocity(plan_, moved_, n, nodes[n].v + share * extra_v_[n]);
+    set_acceleration(plan_, moved_, n, nodes[n].a + share * extra_a_[n]);
+  }
+  for (std::size_t i = 0; i < plan_.signals.size(); ++i) {
+    if (!plan_.signals[i].is_state()) continue;
+    const double algorithmic = rule.states.algorithmic(0.0, signals_.value[i], signals_.algorithmic[i]);
+    moved_.signals.rate[i] =
+        state.signals.rate[i] + share * rule.states.rate(algorithmic, signals_.algorithmic[i], signals_.rate[i]);
+  }
+  if (auto t = system_.evaluate(moved_, {}, false)) return t;
+  for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] = (system_.right_hand_side()[i] - base_[i]) / share;
+  if (auto t = system_.linear().solve(rhs_.data(), x_.data(), false)) return t;
+  ++num_solutions_;
+  double change = 0.0, size = 0.0;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const Vec6<double> z = to_ground(nodes[n].R, system_.places().node_part(x_.data(), static_cast<int>(n)));
+    change = std::max(change, size_of(Vec6<double>(z - next_[n]), plan_.length_scale));
+    size = std::max(
+        {size, size_of(Vec6<double>(z - z_[n]), plan_.length_scale), rounding * size_of(z, plan_.length_scale)});
+    next_[n] = z;
+  }
+  left = size > 0.0 ? change / size : 0.0;
+  return std::nullopt;
+}
+
+/// g_v and g_a of next_, and the largest of them as displacements in a step, lengths over the size of the structure.
+double ErrorTransport::find_extra_rates(const std::vector<elements::NodeMotion>& nodes, const AlphaRule& rule) {
+  const elements::Slopes slopes = rule.slopes();
+  double most = 0.0;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const auto now = rule.follow(Vec6<double>(next_[n] - z_[n]), rate_[n], second_[n], algorithmic_[n]);
+    const BodyRates body = rates_of(nodes[n], next_[n], now.v, now.a);
+    const Vec6<double> eta = to_node(nodes[n].R, next_[n]);
+    extra_v_[n] = body.v - slopes.velocity * eta;
+    extra_a_[n] = body.a - slopes.acceleration * eta;
+    most = std::max({most, rule.h * size_of(extra_v_[n], plan_.length_scale),
+                     rule.h * rule.h * size_of(extra_a_[n], plan_.length_scale)});
+  }
+  for (const double r : signals_.algorithmic) most = std::max(most, rule.h * std::abs(r));
+  return most;
+}
+
+void ErrorTransport::end_step(const AlphaRule& rule) {
+  for (std::size_t n = 0; n < z_.size(); ++n) {
     const auto now = rule.follow(Vec6<double>(next_[n] - z_[n]), rate_[n], second_[n], algorithmic_[n]);
     rate_[n] = now.v;
     second_[n] = now.a;
     algorithmic_[n] = now.algorithmic;
     z_[n] = next_[n];
   }
-  for (std::size_t i = 0; i < plan::driving_signals(plan_).size(); ++i) {
+  for (std::size_t i = 0; i < plan_.signals.size(); ++i) {
     const double value = x_[system_.places().signals()[i]];
     if (plan_.signals[i].is_state()) {
       const double algorithmic = rule.states.algorithmic(value, signals_.value[i], signals_.algorithmic[i]);
@@ -181,7 +202,6 @@ std::optional<Trouble> ErrorTransport::solve_rates(const State& state, double h)
     }
     signals_.value[i] = value;
   }
-  return std::nullopt;
 }
 
 void ErrorTransport::add(const State& state, const LocalError& local, double steps) {

@@ -16,6 +16,8 @@
 
 namespace bough::step {
 
+struct AlphaRule;
+
 /// Has a system and factors of its own, so that a run is the same with and without it. Allocates when it is made and in
 /// its first step.
 class ErrorTransport {
@@ -57,6 +59,10 @@ class ErrorTransport {
   BodyRates rates_of(const elements::NodeMotion& node, const motion::Vec6<double>& z, const motion::Vec6<double>& rate,
                      const motion::Vec6<double>& second) const;
   std::optional<Trouble> solve_rates(const State& state, double h);
+  std::optional<Trouble> begin_step(const State& state, const AlphaRule& rule);
+  std::optional<Trouble> solve_once(const State& state, const AlphaRule& rule, double& left);
+  double find_extra_rates(const std::vector<elements::NodeMotion>& nodes, const AlphaRule& rule);
+  void end_step(const AlphaRule& rule);
 
   const plan::Plan& plan_;
   scene::Solver solver_;
