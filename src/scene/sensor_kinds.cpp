@@ -128,10 +128,9 @@ std::vector<SensorType> make_types() {
        "the mean position of the interface's nodes, in the ground's axes."},
       {SensorKind::force, "force", SensorOf::part, SensorShows::force,
        in("N", {"fx", "fy", "fz"}) + in("N m", {"mx", "my", "mz"}), seen,
-       "Wrench of a prescribed motion or a load on its part, at the place where it acts (of a line load about the "
-       "start "
-       "of its beam), or of a spring or bushing on its second, at that end. Axes body: those of the part at that "
-       "place."},
+       "Wrench of a prescribed motion or a load on its part, at the place where it acts (of a line load "
+       "about the start of its beam), or of a spring or bushing on its second, at that end. Axes body: "
+       "those of the part at that place, of a bushing those of its stiffness, carried by the second."},
       {SensorKind::joint_effort,
        "joint_effort",
        coordinate,
