@@ -146,7 +146,7 @@ std::optional<Trouble> ErrorTransport::solve_once(const State& state, const Alph
     set_velocity(plan_, moved_, n, nodes[n].v + share * extra_v_[n]);
     set_acceleration(plan_, moved_, n, nodes[n].a + share * extra_a_[n]);
   }
-  for (std::size_t i = 0; i < plan_.signals.size(); ++i) {
+  for (std::size_t i = 0; i < plan::driving_signals(plan_).size(); ++i) {
     if (!plan_.signals[i].is_state()) continue;
     const double algorithmic = rule.states.algorithmic(0.0, signals_.value[i], signals_.algorithmic[i]);
     moved_.signals.rate[i] =
@@ -193,7 +193,7 @@ void ErrorTransport::end_step(const AlphaRule& rule) {
     algorithmic_[n] = now.algorithmic;
     z_[n] = next_[n];
   }
-  for (std::size_t i = 0; i < plan_.signals.size(); ++i) {
+  for (std::size_t i = 0; i < plan::driving_signals(plan_).size(); ++i) {
     const double value = x_[system_.places().signals()[i]];
     if (plan_.signals[i].is_state()) {
       const double algorithmic = rule.states.algorithmic(value, signals_.value[i], signals_.algorithmic[i]);
