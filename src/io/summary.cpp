@@ -59,7 +59,7 @@ void write_checks(JsonText& json, const records::Summary& summary) {
       json.member("numerical_dissipation", checks.numerical_dissipation);
       json.member("energy_scale", checks.energy_scale);
       json.member("momentum_balance", checks.momentum_balance);
-      json.member("momentum_scale", checks.momentum_scale);
+      if (checks.momentum_scale > 0.0) json.member("momentum_scale", checks.momentum_scale);
       if (checks.angular_momentum_scale > 0.0) {
         json.member("angular_momentum_balance", checks.angular_momentum_balance);
         json.member("angular_momentum_scale", checks.angular_momentum_scale);

@@ -102,6 +102,7 @@ WorkMeter::WorkMeter(const plan::Plan& plan) {
     plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
       using E = std::decay_t<decltype(e)>;
       mass_ += total_mass(e);
+      is_tied_ = is_tied_ || (E::num_ports > 1 && holds_on_to_ground(e));
       if (!is_watched(e)) return;
       evaluation_cost_ += E::cost.alone;
       watched_.push_back({id, joint_of[id], ports_.size(), drives_.size()});

@@ -77,6 +77,7 @@ void Conservation::sum_up(records::Checks& c, const step::StepOptions& options, 
   c.numerical_dissipation = std::max(0.0, -balance_.last_energy_error());
   c.energy_gained = std::max(0.0, balance_.last_energy_error());
   c.momentum_balance = balance_.momentum_error();
+  if (work_meter_.is_tied()) return;
   c.momentum_scale = balance_.momentum_scale();
   if (lanes::dot(plan_.gravity, plan_.gravity) > 0.0) return;
   c.angular_momentum_balance = balance_.angular_momentum_error();

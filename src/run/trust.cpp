@@ -44,7 +44,7 @@ void doubt_energy(const records::Summary& s, const TrustLimits& limits, std::vec
                                     "counted; smaller steps tell which"});
 }
 
-/// Impulses are sums of forces at the ends of steps, so that both balances are as accurate as the motion.
+/// Of what nothing ties to the ground: impulses of reactions are no better than the steps resolve these.
 void doubt_momentum(const records::Checks& c, const TrustLimits& limits, std::vector<records::Doubt>& doubts) {
   const auto look_at = [&](const char* what, double error, double scale, const char* unit) {
     if (scale > 0.0 && passes(error, limits.momentum_lost * scale))

@@ -173,7 +173,7 @@ AlphaStep make_rule(System& system, const StepOptions& options, const State& sta
                  FirstOrderRule(options.spectral_radius, start.step_size)};
   std::visit(
       [&]<class G>(const DriftChoice<G>& choice) {
-        rule.drifts = G::turns;
+        rule.drifts = !choice.eights.empty();
         rule.falls = choice.falls;
       },
       system.work().drift_choice);

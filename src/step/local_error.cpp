@@ -145,11 +145,13 @@ void LocalError::shift_accelerations(const System& system, const State& after, S
       auto& node = nodes.motion[n];
       typename G::template Vector<double> v = node.v, rate = node.a;  // relative to the frame of the step
       if constexpr (G::turns) {
-        const auto& fall = std::get<DriftChoice<G>>(system.work().drift_choice).fall;
-        const Drift<G, double> drift{
-            node.drift, G::turned_back({node.R, G::template Translation<double>::zero()}, fall)};
-        rate = without<G, double>(rate, drift.rate(v));
-        v = without<G, double>(v, drift.velocity);
+        const auto& choice = std::get<DriftChoice<G>>(system.work().drift_choice);
+        if (!choice.eights.empty()) {
+          const Drift<G, double> drift{
+              node.drift, G::turned_back({node.R, G::template Translation<double>::zero()}, choice.fall)};
+          rate = without<G, double>(rate, drift.rate(v));
+          v = without<G, double>(v, drift.velocity);
+        }
       }
       node.a += h * ((alpha_.error_of_increments() / h) * nodes.acceleration_trend[n] -
                      (1.0 / 12.0) * motion::VectorsOn<G>::template bracket<double>(v, rate));

@@ -219,8 +219,8 @@ void measure_increment(const NodesOn<Se2>& start, const DriftedStart<Se2>& drift
   Mover<Se2, Pack> from;
   gather_pose(start, eight, from);
   const Pack angle = m.dq[2];
-  const Vec2<Pack> way =
-      motion::conjugate_times(from.R, motion::difference(m.x, from.x)) - drifted.eights[k].way;
+  Vec2<Pack> way = motion::conjugate_times(from.R, motion::difference(m.x, from.x));
+  if (!drifted.eights.empty()) way = way - drifted.eights[k].way;
   const Vec2<Pack> inverse{{motion::half_cotangent(Pack(angle * angle)), -0.5 * angle}};
   m.dq = motion::join(motion::complex_times(inverse, way), angle);
 }
@@ -237,18 +237,18 @@ template <class G>
 struct StartRates {
   VectorLanes<G> v, a, algorithmic;
   StartRates(const NodesOn<G>& start, const DriftedStart<G>& drifted, std::size_t k, const NodeEight& eight) {
-    if constexpr (G::turns) {
+    if (!drifted.eights.empty()) {
       const typename DriftedStart<G>::Eight& of = drifted.eights[k];
       v = of.v;
       a = of.a;
       algorithmic = of.algorithmic;
-    } else {
-      VectorLanes<G> rates[2];
-      gather<2 * G::dof>(start.motion.data(), eight, &rates[0][0], NodeNumbers<G>::v);
-      v = rates[0];
-      a = rates[1];
-      algorithmic = start.algorithmic.eight(k);
+      return;
     }
+    VectorLanes<G> rates[2];
+    gather<2 * G::dof>(start.motion.data(), eight, &rates[0][0], NodeNumbers<G>::v);
+    v = rates[0];
+    a = rates[1];
+    algorithmic = start.algorithmic.eight(k);
   }
 };
 
@@ -282,11 +282,11 @@ double correct_nodes(const AlphaRule& rule, const Drifts<G>& drifts, const Nodes
     measure_increment(start, drifts.start, k, eight, m);
     const StartRates<G> from(start, drifts.start, k, eight);
     const auto now = rule.follow(m.dq, from.v, from.a, from.algorithmic);
+    m.v = now.v;
+    m.a = now.a;
     if constexpr (G::turns) {
-      set_rates<G>(now, drifts.start.eights[k].velocity, drifts.choice, m);
-    } else {
-      m.v = now.v;
-      m.a = now.a;
+      m.drift = DriftedStart<G>::Translation::zero();
+      if (!drifts.choice.eights.empty()) set_rates<G>(now, drifts.start.eights[k].velocity, drifts.choice, m);
     }
     scatter_motion<NodeNumbers<G>::all>(m, state, eight);
     turned = larger(turned, angular_square<G>(m.dq));
@@ -356,10 +356,11 @@ template <class G>
 void drift_from(const AlphaRule& rule, const DriftChoice<G>& choice, const Mover<G, Pack>& m,
                 const VectorLanes<G>& algorithmic, std::size_t k, typename DriftedStart<G>::Eight& to) {
   using Translation = typename DriftedStart<G>::Translation;
-  const double h = rule.h, least = least_turn / h;
+  const double h = rule.h;
   const typename G::template Pose<Pack> H{m.R, Translation::zero()};
+  const auto& eight = choice.eights[k];
   const Drift<G, Pack> drift =
-      choose_drift<G, Pack>(H, m.v, m.a, choice.centers[k], lanes::cast<Pack>(choice.fall), least * least);
+      choose_drift<G, Pack>(H, m.v, eight.center, eight.flies, lanes::cast<Pack>(choice.fall));
   const Translation rate = drift.rate(m.v), second = drift.second(m.v, m.a);
   to.v = without<G, Pack>(m.v, drift.velocity);
   to.a = without<G, Pack>(m.a, rate);
@@ -378,24 +379,27 @@ double predict_nodes(const AlphaRule& rule, const Drifts<G>& drifts, int degree,
     const NodeEight& eight = order.eights()[k];
     Mover<G, Pack> m;
     gather_motion(start, eight, m);
-    if constexpr (G::turns) drift_from(rule, drifts.choice, m, start.algorithmic.eight(k), k, drifts.start.eights[k]);
+    if constexpr (G::turns)
+      if (!drifts.choice.eights.empty())
+        drift_from(rule, drifts.choice, m, start.algorithmic.eight(k), k, drifts.start.eights[k]);
     const StartRates<G> from(start, drifts.start, k, eight);
     const VectorLanes<G> change =
         predicted_change(degree, start.acceleration_trend.eight(k), start.trend_change.eight(k));
     const VectorLanes<G> eta = rule.predict(from.v, from.a, from.algorithmic, change);
     const auto now = rule.follow(eta, from.v, from.a, from.algorithmic);
-    if constexpr (G::turns) {
-      const typename G::template Pose<Pack> H{m.R, DriftedStart<G>::Translation::zero()};
-      const auto way = G::turned(H, drifts.start.eights[k].way);
-      m.move(eta, false);
-      m.x.add(way);
-      set_rates<G>(now, drifts.start.eights[k].velocity, drifts.choice, m);
-    } else {
-      m.move(eta, false);
-      m.v = now.v;
-      m.a = now.a;
-    }
+    if constexpr (G::turns)
+      if (!drifts.choice.eights.empty()) {
+        const typename G::template Pose<Pack> H{m.R, DriftedStart<G>::Translation::zero()};
+        m.x.add(G::turned(H, drifts.start.eights[k].way));
+      }
+    m.move(eta, false);
+    m.v = now.v;
+    m.a = now.a;
     m.dq = eta;
+    if constexpr (G::turns) {
+      m.drift = DriftedStart<G>::Translation::zero();
+      if (!drifts.choice.eights.empty()) set_rates<G>(now, drifts.start.eights[k].velocity, drifts.choice, m);
+    }
     scatter_motion<NodeNumbers<G>::all>(m, state, eight);
     turned = larger(turned, angular_square<G>(eta));
   }
@@ -424,7 +428,8 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, const Drifts<G>& drifts, 
     const auto now = rule.follow(rates[2], from.v, from.a, from.algorithmic);
     const VectorLanes<G> change = now.a - from.a, of_change = change - trend;
     state.algorithmic.eight(k) = now.algorithmic;
-    if constexpr (G::turns) {
+    if constexpr (G::turns)
+      if (!drifts.choice.eights.empty()) {
       Drift<G, Pack> drift;
       drift.velocity = G::linear(rates[0]) - G::linear(now.v);
       drift.fall = G::linear(rates[1]) - G::linear(now.a) + G::spin(now.v, drift.velocity);

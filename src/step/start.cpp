@@ -237,18 +237,19 @@ template <class G>
 struct FrameRates {
   typename G::template Vector<double> twist = G::template Vector<double>::zero(), twist_rate = twist, jerk = twist;
 };
-/// That of the step of size h that begins with these nodes.
+/// That of the step that begins with these nodes.
 template <class G>
-FrameRates<G> frame_of(System& system, const NodesOn<G>& nodes, std::size_t n, double h) {
+FrameRates<G> frame_of(System& system, const NodesOn<G>& nodes, std::size_t n) {
   FrameRates<G> frame;
   if constexpr (G::turns) {
     const auto& choice = std::get<DriftChoice<G>>(system.work().drift_choice);
+    if (choice.eights.empty()) return frame;
     const NodeOrder::Place at = system.node_order()->place(n);
     const auto& node = nodes.motion[n];
-    const double least = least_turn / h;
-    const Drift<G, double> drift = choose_drift<G, double>(
-        {node.R, G::template Translation<double>::zero()}, node.v, node.a,
-        lanes::get_lane(choice.centers[at.eight], at.lane), choice.fall, least * least);
+    const auto& eight = choice.eights[at.eight];
+    const Drift<G, double> drift =
+        choose_drift<G, double>({node.R, G::template Translation<double>::zero()}, node.v,
+                                lanes::get_lane(eight.center, at.lane), eight.flies[at.lane], choice.fall);
     const auto rate = drift.rate(node.v), second = drift.second(node.v, node.a);
     for (int i = 0; i < G::translations; ++i) {
       frame.twist[i] = drift.velocity[i];
@@ -275,10 +276,11 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   // Unknown is the part of v'' that is left relative to the frames of the first step, of which free flight has none.
   std::vector<double> frame_jerk(system.places().size(), 0.0), of_frames;
   state.change_all([&]<class G>(NodesOn<G>& nodes) {
-    slopes.drifts = G::turns;
-    slopes.falls = std::get<DriftChoice<G>>(system.work().drift_choice).falls;
+    const auto& choice = std::get<DriftChoice<G>>(system.work().drift_choice);
+    slopes.drifts = !choice.eights.empty();
+    slopes.falls = choice.falls;
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
-      const FrameRates<G> frame = frame_of(system, nodes, n, h);
+      const FrameRates<G> frame = frame_of(system, nodes, n);
       system.places().set_node_part(frame_jerk.data(), static_cast<int>(n), frame.jerk);
       if constexpr (G::turns) nodes.motion[n].drift = G::linear(frame.twist);
     }
@@ -316,7 +318,7 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
       const auto& node = nodes.motion[n];
       const typename NodesOn<G>::Vector jerk = part_on<G>(system, x, n);
-      const FrameRates<G> frame = frame_of(system, nodes, n, h);
+      const FrameRates<G> frame = frame_of(system, nodes, n);
       nodes.algorithmic.set(n, node.a + (c.shift() * h) * typename NodesOn<G>::Vector(jerk + frame.jerk));
       nodes.acceleration_trend.set(n, h * jerk);
       system.places().set_node_part(

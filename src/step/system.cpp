@@ -29,7 +29,7 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
   work_.x = work_.rhs;
   plan.with_group([&]<class G>() {
     auto& choice = work_.drift_choice.emplace<DriftChoice<G>>(make_drift_choice<G>(plan, *node_order_));
-    work_.drifted.emplace<DriftedStart<G>>().eights.resize(choice.centers.size());
+    work_.drifted.emplace<DriftedStart<G>>().eights.resize(choice.eights.size());
   });
   linear_.set_renewal_cost(estimate_step_cost(*this).renewal());
 }

@@ -37,6 +37,9 @@ class WorkMeter {
   void add(const step::System& system, const step::State& state, double step_size);
   const Supply& supply() const { return supply_; }
   double mass() const { return mass_; }  ///< total mass [kg]
+  /// Whether something ties the structure to the ground. The impulse of its reactions, which are known at the ends of
+  /// steps alone, is then no better than these resolve them.
+  bool is_tied() const { return is_tied_; }
   /// Sum of elements::Cost::alone over the elements that are evaluated in every step [s].
   double evaluation_cost() const { return evaluation_cost_; }
 
@@ -64,6 +67,7 @@ class WorkMeter {
   std::vector<Port> ports_;
   std::vector<Drive> drives_;
   double mass_ = 0.0;  ///< total mass [kg]
+  bool is_tied_ = false;
   double evaluation_cost_ = 0.0;
   double dissipation_rate_ = 0.0;
   motion::Vec3<double> force_ = motion::Vec3<double>::zero(), moment_ = force_;

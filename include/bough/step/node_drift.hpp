@@ -1,5 +1,5 @@
 #pragma once
-/// Frames relative to which generalized-alpha describes nodes that turn.
+/// Frames relative to which generalized-alpha describes nodes that fly.
 #include <memory>
 #include <vector>
 
@@ -7,12 +7,14 @@
 
 namespace bough::step {
 
-/// What chooses the frame of each node (src/step/drift.hpp). Made once.
+/// What chooses the frame of each node, eight nodes in the lanes of a pack (src/step/drift.hpp). Made once.
 template <class G>
 struct DriftChoice {
-  using Translation = typename G::template Translation<elements::LanePack>;
-  /// Mass centre of the bodies at the node, in its axes [m]; by NodeOrder::eights(), empty where nothing turns.
-  std::vector<Translation> centers;
+  struct Eight {
+    typename G::template Translation<elements::LanePack> center;  ///< mass centre of a node's bodies, in its axes [m]
+    elements::LanePack flies;                                     ///< 1 where nothing ties a node to the ground, else 0
+  };
+  std::vector<Eight> eights;  ///< by NodeOrder::eights(); empty where nothing flies and turns
   typename G::template Translation<double> fall;  ///< acceleration of the frames, along the axes of the model [m/s^2]
   bool falls = false;                             ///< whether that is gravity, or zero
 };
