@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bough/schedule/serial.hpp"
 
@@ -10,11 +11,13 @@ namespace bough::run {
 namespace {
 
 constexpr double share = 0.02;       ///< of the time of a run that errors may cost
-constexpr double always = 0.03;      ///< seconds that they may cost in any case
+constexpr double always = 0.01;      ///< seconds that they may cost in any case
+constexpr double of_start = 24.0;    ///< cost of a system and a solver of its own, in steps of the error
 constexpr double turn_a_step = 0.2;  ///< of vibrations, in one step of the error [rad]: 30 steps a period
 constexpr double spin_a_step = 0.1;  ///< of nodes, in one step of the error [rad]
 constexpr double excess = 2.0;       ///< by how much errors of that turn grow too fast, over (w h)^2 and the turn
-constexpr double most_turn = 1.0;    ///< above this a step of the error does not resolve the motion [rad]
+constexpr double most_turn = 1.0;    ///< of vibrations: above this a step of the error does not resolve them [rad]
+constexpr double most_spin = 0.25;   ///< the same of nodes
 constexpr long most_stride = 128;
 constexpr double fewest = 24.0;  ///< steps of the error in a run: fewer tell nothing
 
@@ -29,11 +32,16 @@ Costs costs_of(const step::System& system) {
   return {3.0 * (solution + c.update) + c.end, c.tangent + c.factor + 5.0 * solution};
 }
 
+bool has_loops(const plan::Plan& plan) {
+  return std::any_of(plan.mobility.parts.begin(), plan.mobility.parts.end(),
+                     [](const plan::MobilityPart& part) { return part.closing_rows > 0; });
+}
+
 }  // namespace
 
 bool CarriedError::pays(const step::System& system, double steps) {
   const Costs c = costs_of(system);
-  return steps * share * c.step + always >= std::min(steps, fewest) * c.carried;
+  return steps * share * c.step + always >= (of_start + std::min(steps, fewest)) * c.carried;
 }
 
 CarriedError::CarriedError(step::System& system, const scene::Solver& solver, const step::StepOptions& options,
@@ -46,6 +54,9 @@ CarriedError::CarriedError(step::System& system, const scene::Solver& solver, co
   left_open_ = tolerance_share * options.tolerance;
   budget_ = always / c.carried;
   cost_ = c.carried / c.step;
+  // Loops of joints come close to positions in which constraints depend on each other. The tangent is not right there,
+  // and no growth is certain.
+  if (has_loops(system.plan())) too_much_ = std::numeric_limits<double>::infinity();
 }
 
 void CarriedError::restart(double time) {
@@ -130,8 +141,9 @@ void CarriedError::choose_stride(const step::State& state, double turn, double s
   const double steps = std::min(turn_a_step / std::max(turn, 1e-9), spin_a_step / std::max(h * spin, 1e-9));
   const auto wanted = static_cast<long>(std::min(steps, 1e6));
   all_ += spent;
-  const double turned = std::max(static_cast<double>(stride_) * turn, spun);
-  if ((turned > most_turn && stride_ > 1) || !transport_.is_solved()) unresolved_ += spent;
+  const double turned = static_cast<double>(stride_) * turn;
+  const bool is_coarse = (turned > most_turn && stride_ > 1) || spun > most_spin;
+  if (is_coarse || !transport_.is_solved()) unresolved_ += spent;
   const long smooth = std::clamp(wanted, stride_ / 2, stride_ + 1 + stride_ / 4);  // jumps of the size leave their mark
   stride_ = std::clamp(std::max(least, smooth), 1L, most_stride);
 }
