@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "bough/io/number_text.hpp"
 
@@ -28,7 +29,7 @@ FarWatch::FarWatch(const plan::Plan& plan) {
     if (!(distance > far * length)) continue;
     plan::with_element(plan.elements, plan.directory[static_cast<std::size_t>(beam.elements.front())],
                        [&](const auto& e) {
-                         if constexpr (requires { e.stiffness(0, 0); })
+                         if constexpr (std::decay_t<decltype(e)>::role == elements::Role::beam)
                            for (int k = 0; k < 3; ++k)
                              forces_.push_back({column + static_cast<std::size_t>(k), sensor.sensor.name,
                                                 e.stiffness(k, k) * 0x1p-53 * distance / length, distance, 0.0, s});
