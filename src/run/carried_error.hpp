@@ -37,7 +37,6 @@ class CarriedError {
   const step::ErrorTransport& transport() const { return transport_; }
   /// The time in which errors grew by e in the later half of the run [s]; 0: no faster than by a power of time.
   double grows_in() const;
-  long num_steps() const { return num_steps_; }
   /// The part of a carried error that is certain, where the rule makes errors of nodes that turn grow too fast.
   double certain_part() const { return std::exp(-too_much_); }
   /// Whether its steps have resolved the motion.
@@ -58,7 +57,6 @@ class CarriedError {
   bool has_first_ = false;  ///< the error of the step before was measured
   double duration_;
   double largest_early_ = 0.0, largest_ = 0.0;  ///< errors in the first half of the run, and in all of it
-  long num_steps_ = 0;
   double reaction_ = 0.0;  ///< fading mean of the largest multiplier
   double too_much_ = 0.0;
   double all_ = 0.0, unresolved_ = 0.0;  ///< durations [s]

@@ -160,6 +160,13 @@ std::vector<records::SensorError> ErrorWatch::errors(const records::HistoryHeade
     const double of_shift = c.squares > 0.0 ? std::sqrt(c.squared_rates / c.squares) : 0.0;
     const double of_energy = slowed * std::sqrt(c.squared_rates / looks);
     double of_steps = c.is_rate ? local * of_shift : local;
+    if (takes_carried_ && has_carried_) {
+      const double beyond = c.carried - of_steps;
+      if (beyond < 0.0)
+        of_steps = c.carried;
+      else if (certain_part_ > 0.0)
+        of_steps += certain_part_ * beyond;
+    }
     found.push_back({header.columns[c.index], of_steps, of_energy, ranges[c.group]});
   }
   return found;

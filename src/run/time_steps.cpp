@@ -289,7 +289,7 @@ bool TimeSteps::carry_error(const step::LocalError* local) {
 }
 
 void TimeSteps::end_errors() {
-  if (!carried_) return;
+  if (carried_ && carried_->is_resolved()) recording_.error_watch()->take_carried(carried_->certain_part());
 }
 
 void TimeSteps::sum_up() {
