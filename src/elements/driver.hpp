@@ -55,8 +55,7 @@ void eval_port_slopes(const E& e, const FieldOn<G, S>& field, const PortMotionOn
     ports[k].acceleration = G::scaled(field.slopes.acceleration, inverse);
     if constexpr (G::turns) {
       if (!field.slopes.drifts) continue;
-      typename G::template Translation<S> b = field.nodes[port.node].drift,
-                                          c = G::template Translation<S>::zero();
+      typename G::template Translation<S> b = field.nodes[port.node].drift, c = G::template Translation<S>::zero();
       if (port.has_offset) b = G::turned_back(port.offset, b);
       if (field.slopes.falls) c = G::turned_back(p[k].H, field.around.gravity);
       add_drift(b, c, angular_of(p[k].v), ports[k].velocity, ports[k].acceleration);

@@ -398,7 +398,8 @@ void Builder::make_graph() {
     plan.block_of_node[n] = g.num_blocks();
     g.block_size.push_back(plan.unknowns.count_of(n));
   }
-  const std::span<SignalPlan> driving = std::span(plan.signals).first(static_cast<std::size_t>(plan.num_driving_signals));
+  const std::span<SignalPlan> driving =
+      std::span(plan.signals).first(static_cast<std::size_t>(plan.num_driving_signals));
   for (SignalPlan& s : driving) {
     s.block = g.num_blocks();
     g.block_size.push_back(1);

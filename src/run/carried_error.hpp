@@ -57,7 +57,7 @@ class CarriedError {
   bool has_first_ = false;  ///< the error of the step before was measured
   double duration_;
   double largest_early_ = 0.0, largest_ = 0.0;  ///< errors in the first half of the run, and in all of it
-  double reaction_ = 0.0;  ///< fading mean of the largest multiplier
+  double reaction_ = 0.0;                       ///< fading mean of the largest multiplier
   double too_much_ = 0.0;
   double all_ = 0.0, unresolved_ = 0.0;  ///< durations [s]
 };

@@ -23,8 +23,13 @@ struct AlphaRule {
   };
 
   elements::Slopes slopes() const {
-    return {c.gamma / (c.beta * h), (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h), false, states.slope(), false,
-            drifts, falls};
+    return {c.gamma / (c.beta * h),
+            (1.0 - c.alpha_m) / ((1.0 - c.alpha_f) * c.beta * h * h),
+            false,
+            states.slope(),
+            false,
+            drifts,
+            falls};
   }
 
   /// Acceleration-like variable, velocity and acceleration at the end of the step as functions of dq:

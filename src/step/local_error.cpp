@@ -147,8 +147,8 @@ void LocalError::shift_accelerations(const System& system, const State& after, S
       if constexpr (G::turns) {
         const auto& choice = std::get<DriftChoice<G>>(system.work().drift_choice);
         if (!choice.eights.empty()) {
-          const Drift<G, double> drift{
-              node.drift, G::turned_back({node.R, G::template Translation<double>::zero()}, choice.fall)};
+          const Drift<G, double> drift{node.drift,
+                                       G::turned_back({node.R, G::template Translation<double>::zero()}, choice.fall)};
           rate = without<G, double>(rate, drift.rate(v));
           v = without<G, double>(v, drift.velocity);
         }

@@ -359,8 +359,7 @@ void drift_from(const AlphaRule& rule, const DriftChoice<G>& choice, const Mover
   const double h = rule.h;
   const typename G::template Pose<Pack> H{m.R, Translation::zero()};
   const auto& eight = choice.eights[k];
-  const Drift<G, Pack> drift =
-      choose_drift<G, Pack>(H, m.v, eight.center, eight.flies, lanes::cast<Pack>(choice.fall));
+  const Drift<G, Pack> drift = choose_drift<G, Pack>(H, m.v, eight.center, eight.flies, lanes::cast<Pack>(choice.fall));
   const Translation rate = drift.rate(m.v), second = drift.second(m.v, m.a);
   to.v = without<G, Pack>(m.v, drift.velocity);
   to.a = without<G, Pack>(m.a, rate);
@@ -430,12 +429,12 @@ Workspace::StepEnd finish_nodes(const AlphaRule& rule, const Drifts<G>& drifts, 
     state.algorithmic.eight(k) = now.algorithmic;
     if constexpr (G::turns)
       if (!drifts.choice.eights.empty()) {
-      Drift<G, Pack> drift;
-      drift.velocity = G::linear(rates[0]) - G::linear(now.v);
-      drift.fall = G::linear(rates[1]) - G::linear(now.a) + G::spin(now.v, drift.velocity);
-      const auto later = drift.rate(now.v) + (rule.c.shift() * rule.h) * drift.second(now.v, now.a);
-      state.algorithmic.eight(k) = without<G, Pack>(now.algorithmic, -later);
-    }
+        Drift<G, Pack> drift;
+        drift.velocity = G::linear(rates[0]) - G::linear(now.v);
+        drift.fall = G::linear(rates[1]) - G::linear(now.a) + G::spin(now.v, drift.velocity);
+        const auto later = drift.rate(now.v) + (rule.c.shift() * rule.h) * drift.second(now.v, now.a);
+        state.algorithmic.eight(k) = without<G, Pack>(now.algorithmic, -later);
+      }
     const Pack miss[std::tuple_size_v<Misses>] = {size(change), size(of_change), size(of_change - of_trend)};
     scatter<std::tuple_size_v<Misses>>(miss, misses, eight);
     note_largest(rule.local_error(change, motion::VectorsOn<G>::template bracket<Pack>(now.v, now.a)), error);

@@ -323,10 +323,10 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
       nodes.acceleration_trend.set(n, h * jerk);
       system.places().set_node_part(
           steady_error.data(), static_cast<int>(n),
-          typename NodesOn<G>::Vector((-h * h) *
-                                      (c.error_of_increments() * jerk -
-                                       (1.0 / 12.0) * motion::VectorsOn<G>::template bracket<double>(
-                                           node.v - frame.twist, node.a - frame.twist_rate))));
+          typename NodesOn<G>::Vector(
+              (-h * h) *
+              (c.error_of_increments() * jerk - (1.0 / 12.0) * motion::VectorsOn<G>::template bracket<double>(
+                                                                   node.v - frame.twist, node.a - frame.twist_rate))));
     }
   });
   state.step_size = h;

@@ -65,8 +65,8 @@ State make_initial_state(const plan::Plan& plan) {
       const auto none = NodesOn<G>::Vector::zero();
       const std::vector<plan::NodeStartOn<G>>& starts = std::get<plan::ModelOn<G>>(plan.model).nodes;
       for (std::size_t i = 0; i < n; ++i)
-        reduced.motion[i] = {starts[i].turn, starts[i].x, restricted(plan, reduced, i, plan.nodes[i].twist), none,
-                             none, {}};
+        reduced.motion[i] = {starts[i].turn, starts[i].x, restricted(plan, reduced, i, plan.nodes[i].twist),
+                             none,           none,        {}};
     }
   });
   return s;

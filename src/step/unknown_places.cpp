@@ -7,7 +7,8 @@ namespace bough::step {
 UnknownPlaces::UnknownPlaces(const plan::Plan& plan, const std::vector<std::int64_t>& unknown_begin)
     : plan_(plan), block_begin_(unknown_begin) {
   for (const int block : plan.block_of_node) node_begin_.push_back(block < 0 ? -1 : block_begin(block));
-  for (const plan::SignalPlan& s : plan::driving_signals(plan)) signals_.push_back(static_cast<std::size_t>(block_begin(s.block)));
+  for (const plan::SignalPlan& s : plan::driving_signals(plan))
+    signals_.push_back(static_cast<std::size_t>(block_begin(s.block)));
   const std::vector<elements::Joint>& joints = plan::array_of<elements::Joint>(plan.elements);
   for (const plan::JointPlan& joint : plan.joints) {
     if (joint.block < 0) continue;

@@ -170,7 +170,8 @@ std::vector<double> complex_tangent(const Sample<E>& s, const Field& field) {
       std::vector<NodeState<Complex>> states = states_of<Complex>(s.nodes, anchor);
       NodeState<Complex>& node = states[static_cast<std::size_t>(port.node)];
       const Vec6<Complex> eta = Complex(0.0, complex_step) * Vec6<Complex>::unit(k);
-      node = stepped(node, s.nodes[static_cast<std::size_t>(port.node)], slopes, !slopes.mass_only, around.gravity, eta);
+      node =
+          stepped(node, s.nodes[static_cast<std::size_t>(port.node)], slopes, !slopes.mass_only, around.gravity, eta);
       std::vector<Complex> r =
           node_residual(e, states, anchor.hi, complex_of(s.multipliers), around, s.turns, observer);
       if (slopes.mass_only && m > 0) {  // rows keep the gradient of positions: G a, as in the constraint's second rate

@@ -59,12 +59,8 @@ Sample<E> varied(Sample<E> s, unsigned seed) {
     if (port.has_offset || port.node == ground) port.offset = moved(port.offset, numbers, 0.2);
   for (NodeMotion& n : s.nodes) {
     const Frame<double> H = moved({n.R, n.x.hi}, numbers, seed % 3 == 1 ? 1e-7 : 0.4);
-    n = {seed == 0 ? Mat3<double>::identity() : H.R,
-         {H.x, numbers.vec3(1e-17)},
-         numbers.vec6(),
-         numbers.vec6(),
-         numbers.vec6(seed == 0 ? 0.0 : 0.4),
-         0.3 * lanes::linear_part(n.a)};
+    n = {seed == 0 ? Mat3<double>::identity() : H.R, {H.x, numbers.vec3(1e-17)},   numbers.vec6(), numbers.vec6(),
+         numbers.vec6(seed == 0 ? 0.0 : 0.4),        0.3 * lanes::linear_part(n.a)};
   }
   for (double& x : s.multipliers) x = numbers.next();
   for (double& x : s.laws) x = numbers.next();
@@ -161,9 +157,10 @@ std::vector<double> lane_of(const std::vector<double>& a, std::size_t lane) {
   return r;
 }
 
-const std::vector<std::pair<bool, Slopes>> settings = {
-    {false, Slopes{}}, {true, Slopes{3.1, 7.3, false}}, {true, Slopes{0.0, 0.0, true}},
-    {true, Slopes{3.1, 7.3, false, 0.0, false, true, true}}};
+const std::vector<std::pair<bool, Slopes>> settings = {{false, Slopes{}},
+                                                       {true, Slopes{3.1, 7.3, false}},
+                                                       {true, Slopes{0.0, 0.0, true}},
+                                                       {true, Slopes{3.1, 7.3, false, 0.0, false, true, true}}};
 
 TEST(ElementLanes, hold_the_bits_of_each_element_alone) {
   for_all_elements([](const auto& s) {

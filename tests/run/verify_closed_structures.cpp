@@ -3,8 +3,8 @@
 /// result of them.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <random>
 #include <string>
 #include <utility>
@@ -74,13 +74,15 @@ class Maker {
                    "\", \"kind\": \"section_force\", \"beam\": \"b0\", \"station\": " + at + "}");
     sensors_.add("{\"name\": \"reaction\", \"kind\": \"joint_reaction\", \"joint\": \"first\"}");
     const std::string analysis =
-        is_dynamic_ ? "{\"kind\": \"dynamic\", \"end_time\": 0.05, \"step_size\": 0.005, \"tolerance\": 1e-12}"
-                    : "{\"kind\": \"static\", \"tolerance\": 1e-12, \"load_steps\": " + std::to_string(1 + pick(3)) + "}";
+        is_dynamic_
+            ? "{\"kind\": \"dynamic\", \"end_time\": 0.05, \"step_size\": 0.005, \"tolerance\": 1e-12}"
+            : "{\"kind\": \"static\", \"tolerance\": 1e-12, \"load_steps\": " + std::to_string(1 + pick(3)) + "}";
     return "{\"sections\": [{\"name\": \"s\", \"stiffness\": {\"EA\": 2e4, \"GA2\": 8e3, \"GA3\": 8e3, \"GJ\": 1.5, "
-           "\"EI2\": 2, \"EI3\": 2}, \"mass\": {\"mass_per_length\": 0.2, \"rotary\": [2e-3, 1e-3, 1e-3]}}], \"gravity\": " +
-           vector({0.0, is_dynamic_ ? -2.0 : 0.0, 0.0}) + ", \"nodes\": " + nodes_.str() + ", \"beams\": " + beams_.str() +
-           ", \"joints\": " + joints_.str() + ", \"motions\": " + motions_.str() + ", \"loads\": " + loads_.str() +
-           ", \"sensors\": " + sensors_.str() + ", \"analysis\": " + analysis + "}";
+           "\"EI2\": 2, \"EI3\": 2}, \"mass\": {\"mass_per_length\": 0.2, \"rotary\": [2e-3, 1e-3, 1e-3]}}], "
+           "\"gravity\": " +
+           vector({0.0, is_dynamic_ ? -2.0 : 0.0, 0.0}) + ", \"nodes\": " + nodes_.str() +
+           ", \"beams\": " + beams_.str() + ", \"joints\": " + joints_.str() + ", \"motions\": " + motions_.str() +
+           ", \"loads\": " + loads_.str() + ", \"sensors\": " + sensors_.str() + ", \"analysis\": " + analysis + "}";
   }
 
  private:
@@ -97,19 +99,21 @@ class Maker {
   }
   void add_beam(const std::string& name, const std::string& from, const std::string& to) {
     beams_.add("{\"name\": \"" + name + "\", \"section\": \"s\", \"start\": \"" + from + "\", \"end\": \"" + to +
-               "\", \"elements\": " + std::to_string(1 + pick(3)) + ", \"order\": " + std::to_string(1 + pick(3)) + "}");
+               "\", \"elements\": " + std::to_string(1 + pick(3)) + ", \"order\": " + std::to_string(1 + pick(3)) +
+               "}");
   }
   static std::string joint(const std::string& name, const std::string& kind, const std::string& first,
                            const std::string& second) {
-    return "{\"name\": \"" + name + "\", \"kind\": \"" + kind + "\", \"first\": \"" + first + "\", \"second\": \"" + second +
-           "\"" + (kind == "revolute" ? ", \"axis\": [0, 0, 1]" : "") + "}";
+    return "{\"name\": \"" + name + "\", \"kind\": \"" + kind + "\", \"first\": \"" + first + "\", \"second\": \"" +
+           second + "\"" + (kind == "revolute" ? ", \"axis\": [0, 0, 1]" : "") + "}";
   }
   /// Clamped by a joint; held by a prescribed motion; moved by one; pinned.
   void support(const std::string& node, const std::string& name, int kind) {
     if (kind == 0) return joints_.add(joint(name, "fixed", "ground", node));
     if (kind == 3) return joints_.add(joint(name, in_plane_ ? "revolute" : "spherical", "ground", node));
-    const std::string moved =
-        kind == 1 ? "0" : is_dynamic_ ? R"json({"expression": "0.002*(1-cos(30*t))"})json" : text(uniform(-0.01, 0.01));
+    const std::string moved = kind == 1     ? "0"
+                              : is_dynamic_ ? R"json({"expression": "0.002*(1-cos(30*t))"})json"
+                                            : text(uniform(-0.01, 0.01));
     motions_.add("{\"at\": \"" + node + "\", \"x\": 0, \"y\": " + moved + ", \"z\": 0, \"rotation\": \"hold\"}");
   }
 

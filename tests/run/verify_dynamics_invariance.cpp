@@ -109,11 +109,16 @@ void expect_parabola(const std::string& spin, double h, const std::string& cente
   SCOPED_TRACE(spin + " rad/s, h = " + support::text(h) + ", centre " + center);
   const support::Outcome run = support::run(support::scene_of(
       R"({"gravity": )" + gravity + R"(, "bodies": [{"name": "body", "mass": 2, "inertia": [0.04, 0.05, 0.03],
-        "center_of_mass": )" + center + R"(, "rotation": )" + rotation + R"(}],
-      "initial_velocities": [{"of": "body", "velocity": [10, -5, 0], "angular_velocity": )" + spin + R"(}],
-      "sensors": [{"name": "x", "kind": "position", "at": {"to": "body", "position": )" + center + R"(}},
-        {"name": "v", "kind": "velocity", "at": {"to": "body", "position": )" + center + R"(}}],
-      "analysis": {"kind": "dynamic", "tolerance": 1e-12, "end_time": 1, "step_size": )" + support::text(h) + "}}"));
+        "center_of_mass": )" +
+      center + R"(, "rotation": )" + rotation + R"(}],
+      "initial_velocities": [{"of": "body", "velocity": [10, -5, 0], "angular_velocity": )" +
+      spin + R"(}],
+      "sensors": [{"name": "x", "kind": "position", "at": {"to": "body", "position": )" +
+      center + R"(}},
+        {"name": "v", "kind": "velocity", "at": {"to": "body", "position": )" +
+      center + R"(}}],
+      "analysis": {"kind": "dynamic", "tolerance": 1e-12, "end_time": 1, "step_size": )" +
+      support::text(h) + "}}"));
   ASSERT_TRUE(run.ok()) << run.summary.cause;
   const support::Table& t = run.history;
   const scene::Scene fall = support::scene_of(R"({"gravity": )" + gravity + R"(, "analysis": {"kind": "static"},

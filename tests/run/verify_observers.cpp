@@ -90,9 +90,7 @@ TEST_P(EveryScene, moves_bit_by_bit_as_it_does_unobserved) {
   Json observed = given;
   add_signals(observed);
   add_sensors(observed);
-  const auto run = [&](const Json& json) {
-    return support::run(support::scene_of(json.dump()));
-  };
+  const auto run = [&](const Json& json) { return support::run(support::scene_of(json.dump())); };
   const support::Outcome alone = run(given), seen = run(observed);
   ASSERT_TRUE(alone.ok() && seen.ok()) << alone.summary.cause << seen.summary.cause;
   ASSERT_EQ(alone.history.rows.size(), seen.history.rows.size());

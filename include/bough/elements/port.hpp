@@ -175,8 +175,8 @@ int stiffness_law(const E&) {
 
 /// Of one element, for the balances of a run.
 struct Measures {
-  double dissipation_rate = 0.0;              ///< taken by dampers, >= 0 [W]
-  double strain_by_law = 0.0;                 ///< derivative of the strain energy by stiffness_law [J]
+  double dissipation_rate = 0.0;  ///< taken by dampers, >= 0 [W]
+  double strain_by_law = 0.0;     ///< derivative of the strain energy by stiffness_law [J]
   /// Resultant of loads and reactions of the ground, and its moment about the inertial origin [N, N m].
   Vec3<double> force = Vec3<double>::zero(), moment = Vec3<double>::zero();
 };

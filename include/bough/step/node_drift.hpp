@@ -14,7 +14,7 @@ struct DriftChoice {
     typename G::template Translation<elements::LanePack> center;  ///< mass centre of a node's bodies, in its axes [m]
     elements::LanePack flies;                                     ///< 1 where nothing ties a node to the ground, else 0
   };
-  std::vector<Eight> eights;  ///< by NodeOrder::eights(); empty where nothing flies and turns
+  std::vector<Eight> eights;                      ///< by NodeOrder::eights(); empty where nothing flies and turns
   typename G::template Translation<double> fall;  ///< acceleration of the frames, along the axes of the model [m/s^2]
   bool falls = false;                             ///< whether that is gravity, or zero
 };
