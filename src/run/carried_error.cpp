@@ -11,7 +11,7 @@ namespace bough::run {
 namespace {
 
 constexpr double share = 0.02;       ///< of the time of a run that errors may cost
-constexpr double always = 0.01;      ///< seconds that they may cost in any case
+constexpr double always = 0.02;      ///< seconds that they may cost in any case
 constexpr double of_start = 24.0;    ///< cost of a system and a solver of its own, in steps of the error
 constexpr double turn_a_step = 0.2;  ///< of vibrations, in one step of the error [rad]: 30 steps a period
 constexpr double spin_a_step = 0.1;  ///< of nodes, in one step of the error [rad]

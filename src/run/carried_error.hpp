@@ -9,7 +9,7 @@
 namespace bough::run {
 
 /// Decides how many steps of the run one step of an error spans. It has to resolve the motion (`turn_a_step`), and all
-/// of them together may cost 2 % of the run, or 0.03 s where that is more. Costs are those of the model of steps, so
+/// of them together may cost 2 % of the run, or 0.02 s where that is more. Costs are those of the model of steps, so
 /// that the decision is the same on every machine.
 class CarriedError {
  public:

@@ -106,7 +106,7 @@ double ErrorWatch::turn() const {
   for (const Column& c : columns_) ranges[c.group] = std::max(ranges[c.group], c.highest - c.lowest);
   double most = 0.0;
   for (const Column& c : columns_) {
-    if (!(c.squared_bends > 0.0)) continue;
+    if (!(c.squared_bends > 0.0 && c.squared_steps > 0.0)) continue;
     const double turn = std::sqrt(c.squared_bends / c.squared_steps);
     const double amplitude = std::sqrt(0.2 * c.squared_steps) / turn;  // 0.2: of the fading sum, the mean of squares
     if (amplitude > least_amplitude * ranges[c.group]) most = std::max(most, turn);

@@ -73,10 +73,10 @@ class PseudoTime {
   int quiet_ = 0;                          ///< steps in a row whose changes look like round-off
 };
 
-/// The largest change of a state, relative to what it was or has become.
+/// The largest change of a state that drives the motion, relative to what it was or has become.
 double change_of_states(const plan::Plan& plan, const std::vector<double>& before, const std::vector<double>& now) {
   double most = 0.0;
-  for (std::size_t i = 0; i < now.size(); ++i)
+  for (std::size_t i = 0; i < plan::driving_signals(plan).size(); ++i)
     if (const double change = std::abs(now[i] - before[i]); plan.signals[i].is_state() && change > 0.0)
       most = std::max(most, change / std::max(std::abs(now[i]), std::abs(before[i])));
   return most;
@@ -105,6 +105,7 @@ EquilibriumReport find_equilibrium(System& system, State& state, const StepOptio
   const plan::Plan& plan = system.plan();
   const std::vector<elements::NodeMotion> start = nodes_in_space(plan, state);
   const double time = state.time;
+  const std::vector<double> signals = state.signals.value;
   std::vector<double> before;
   StepOptions options = given;
   options.spectral_radius = 0.0;
@@ -133,6 +134,12 @@ EquilibriumReport find_equilibrium(System& system, State& state, const StepOptio
     }
   }
   rest(system, state);
+  // States that only observe have x' = 0, or stay where they start.
+  for (std::size_t i = plan::driving_signals(plan).size(); i < signals.size(); ++i) {
+    if (plan.signals[i].is_state()) state.signals.value[i] = signals[i];
+    state.signals.rate[i] = 0.0;
+  }
+  system.signals().observe(state, 0.0);
   state.time = time;
   state.step_size = 0.0;
   system.linear().forget_factor();

@@ -161,9 +161,9 @@ bool LinearSolution::may_skip_check() {
 std::optional<Trouble> LinearSolution::solve(const double* rhs, double* x, bool check) {
   PhaseTimer timer{clock_, counts_.solve};
   ++counts_.solutions;
-  if (!check && may_skip_check()) {
+  if (!check) {  // of an observer: neither the schedule of checks nor the trust in the factor may change by it
     static_cast<void>(solver_->solve(walker_, rhs, x, false));
-    return std::nullopt;  // the caller notices a solution that is not finite by the size of the correction
+    return std::nullopt;  // the caller notices a solution that is not finite
   }
   return find_trouble(solver_->solve(walker_, rhs, x));
 }

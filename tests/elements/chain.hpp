@@ -24,7 +24,7 @@ Chain<N> make_chain(int count, double length, const Mat6<double>& stiffness, con
   for (int k = 0; k <= last; ++k) {
     const Frame<double> H = pose(length * k / last);
     const Vec6<double> none = Vec6<double>::zero();
-    c.nodes.push_back({H.R, motion::Vec3Pair::from(H.x), none, none, none});
+    c.nodes.push_back({H.R, motion::Vec3Pair::from(H.x), none, none, none, {}});
   }
   for (int k = 0; k < count; ++k) {
     Beam<N> b;

@@ -231,7 +231,7 @@ void expect_rate(const Sample<E>& s, const CarrierMotion* observer = nullptr) {
   const auto n = static_cast<std::size_t>(num_unknowns(e));
   std::vector<double> got(n), expected;
   evaluate_rate(e, field, {lanes::cast<Taylor1>(field.around.gravity), laws.data(), true}, s.multipliers.data(),
-                s.turns, got.data());
+                s.turns, nullptr, got.data());
   const motion::Vec3Pair anchor = anchor_of(e, s.nodes.data());
   std::vector<NodeState<Complex>> states = states_of<Complex>(s.nodes, anchor);
   for (NodeState<Complex>& node : states) {

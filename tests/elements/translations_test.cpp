@@ -158,7 +158,7 @@ Result evaluated(const E& e, const FieldOn<typename E::Group, double>& field) {
     laws[i].c[1] = law_rates[i];
   }
   const SurroundingsOn<G, T> around{lanes::cast<T>(field.around.gravity), laws, field.around.has_inertia};
-  evaluate_rate(e, field, around, multiplier_values, 0.0, r.rate.data());
+  evaluate_rate(e, field, around, multiplier_values, 0.0, nullptr, r.rate.data());
   return r;
 }
 

@@ -49,8 +49,8 @@ class Maker {
     }
     const std::string last = "p" + std::to_string(spans_), middle = "p" + std::to_string(spans_ / 2);
     support("p0", "first", 0);
-    support(last, "last", pick(4));
-    if (pick(2) == 0) {  // a strut with a clamp of its own, or a beam that closes a loop
+    support(last, "last", pick(hinge > 0 ? 3 : 4));  // between a hinge and a pin a part could spin
+    if (pick(2) == 0) {                              // a strut with a clamp of its own, or a beam that closes a loop
       if (pick(2) == 0) {
         add_node("foot", {0.5 * spans_ + shift(), -1.0, side()});
         support("foot", "foot clamp", 0);
@@ -87,7 +87,7 @@ class Maker {
 
  private:
   using Place = std::array<double, 3>;
-  double uniform(double a, double b) { return a + (b - a) * (random_() / 4294967296.0); }
+  double uniform(double a, double b) { return a + (b - a) * (static_cast<double>(random_()) / 4294967296.0); }
   int pick(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
   double shift() { return uniform(-0.3, 0.3); }
   double side() { return in_plane_ ? 0.0 : shift(); }
@@ -137,13 +137,17 @@ double size_of_sensor(const support::Table& t, const std::string& column) {
 /// Positions are rounded by eps |x|, to which the stiffness EA / L of an element responds.
 constexpr double floor_of_forces = 2e4 / 0.2 * 4.0 * 2.3e-16 * 30.0;
 
-void expect_equal(const Outcome& a, const Outcome& b, const std::string& what) {
-  ASSERT_EQ(a.history.rows.size(), b.history.rows.size()) << what;
+/// whole: all rows; else the last ones, of load steps that may have been cut.
+void expect_equal(const Outcome& a, const Outcome& b, bool whole, const std::string& what) {
+  if (whole) {
+    ASSERT_EQ(a.history.rows.size(), b.history.rows.size()) << what;
+  }
   for (std::size_t c = 0; c < a.history.columns.size(); ++c) {
     const std::string& column = a.history.columns[c];
     double most = 0.0;
-    for (std::size_t r = 0; r < a.history.rows.size(); ++r)
+    for (std::size_t r = 0; whole && r < a.history.rows.size(); ++r)
       most = std::max(most, std::abs(a.history.rows[r][c] - b.history.rows[r][c]));
+    most = std::max(most, std::abs(a.history.rows.back()[c] - b.history.rows.back()[c]));
     EXPECT_LE(most, 1e-9 * size_of_sensor(a.history, column) + floor_of_forces) << what << ": " << column;
   }
 }
@@ -162,14 +166,15 @@ TEST_P(ClosedStructures, have_the_same_results_with_and_without_each_decision) {
     ASSERT_TRUE(plain.ok()) << seed << ": " << plain.summary.cause << "\n" << json;
     const Outcome whole = support::run(scene);
     ASSERT_TRUE(whole.ok()) << seed << ": " << whole.summary.cause << "\n" << json;
-    expect_equal(plain, whole, std::to_string(seed) + " with all decisions");
+    const bool is_dynamic = scene.analysis.kind == scene::AnalysisKind::dynamics;
+    expect_equal(plain, whole, is_dynamic, std::to_string(seed) + " with all decisions");
     for (const plan::Decision& d : plan::make_plan(scene).decisions) {
       if (!d.taken || !d.can_be_barred) continue;
       scene::Scene s = scene;
       s.without = {d.name};
       const Outcome without = support::run(s);
       ASSERT_TRUE(without.ok()) << seed << " without " << d.name << ": " << without.summary.cause;
-      expect_equal(plain, without, std::to_string(seed) + " without " + d.name);
+      expect_equal(plain, without, is_dynamic, std::to_string(seed) + " without " + d.name);
     }
     if (HasFailure()) FAIL() << json;
   }

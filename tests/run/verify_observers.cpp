@@ -33,10 +33,12 @@ Json read(const std::string& stem) {
   return scene;
 }
 
-/// A node or a body to look at; empty: there is none.
+/// A node or a body to look at: that of a sensor where a scene repeats its parts. All scenes have one.
 std::string part_of(const Json& scene) {
   for (const char* list : {"bodies", "nodes"})
     if (scene.contains(list) && !scene[list].empty()) return scene[list].back()["name"];
+  for (const Json& sensor : scene.value("sensors", Json::array()))
+    if (sensor.contains("at")) return sensor["at"].is_string() ? sensor["at"] : sensor["at"]["to"];
   return "";
 }
 
