@@ -62,11 +62,12 @@ std::string Converter::rate_of(const Value& target, const std::string& at, const
 /// formula. Inputs change in steps. Of the rest a program would have to give it, and a hint says so.
 std::string Converter::rate_of_signal(const std::string& signal, const std::string& at, const std::string& name) {
   const Value* list = root_.find("signals");
-  const Value* given = nullptr;
-  for (std::size_t i = 0; list != nullptr && list->is(JsonKind::array) && i < list->items.size(); ++i)
-    if (const Value& item = list->items[i]; item.sound && item.is(JsonKind::object))
-      if (const Value* own = item.find("name"); own != nullptr && own->text == signal && given == nullptr)
-        given = &item;
+  if (given_signals_.empty() && list != nullptr && list->is(JsonKind::array))
+    for (const Value& item : list->items)
+      if (item.sound && item.is(JsonKind::object))
+        if (const Value* own = item.find("name"); own != nullptr) given_signals_.emplace(own->text.str(), &item);
+  const auto place = given_signals_.find(signal);
+  const Value* given = place == given_signals_.end() ? nullptr : place->second;
   const Value* kind_name = given == nullptr ? nullptr : given->find("kind");
   const auto kind = kind_name == nullptr ? std::nullopt : scene::signal_kind_named(kind_name->text.str());
   if (kind == SignalKind::input) return "0";

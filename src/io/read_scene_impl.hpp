@@ -176,6 +176,7 @@ class Converter : private ValueConverter {
   std::size_t num_joints_indexed_ = 0;
   std::unordered_set<std::string> defective_names_;  ///< of those indexed so far
   std::size_t num_defective_indexed_ = 0;
+  std::unordered_map<std::string, const Value*> given_signals_;  ///< by name; made when first asked for
   std::unordered_map<std::string, std::string> effort_of_;  ///< by joint: the first signal that reads an effort of it
   std::vector<Weight> weights_;                             ///< gravity that is made of loads
   int unnamed_ = 0;

@@ -72,10 +72,14 @@ void check_body(ProblemList& list, std::size_t i, double extent) {
 double largest_over_time(const ProblemList& list, const laws::Law& law, bool of_rate) {
   constexpr int samples = 200;
   double most = 0.0;
+  // The value of an integral by quadrature costs the whole way to that time; its rate is the integrand.
+  const std::optional<laws::Law> integrand = law.node() == nullptr ? std::nullopt : law.integrand();
+  if (integrand && !of_rate) return most;
   const auto look = [&](double t, laws::Side side) {
-    const laws::LawValue v = law.at(t, side);
-    const double x = std::abs(of_rate ? v.rate : v.value);
-    if (x < overflowing) most = std::max(most, x);
+    const double x = std::abs(integrand ? integrand->at(t, side).value
+                              : of_rate ? law.at(t, side).rate
+                                        : law.at(t, side).value);
+    if (std::isless(x, overflowing)) most = std::max(most, x);  // a law may be no number there
   };
   if (law.node() == nullptr || !std::isfinite(list.last_time)) return most;
   for (int k = 0; k <= samples; ++k) look(list.last_time * k / samples, laws::Side::right);
