@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "bough/scene/analysis_kinds.hpp"
 #include "problem_list.hpp"
