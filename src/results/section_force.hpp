@@ -1,6 +1,8 @@
 #pragma once
 /// Sectional forces along a beam element, from equilibrium.
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "bough/lanes/taylor.hpp"
 #include "bough/results/observe.hpp"
@@ -168,15 +170,18 @@ class ElementForce {
     return sum;
   }
 
-  /// L times the integral of the load over [from, to]: three points of Gauss, exact for a fifth degree.
+  /// L times the integral of the load over [from, to]: three points of Gauss, exact for a fifth degree, on each quarter
+  /// of an element, over which a load that turns with strongly bent sections is no polynomial.
   motion::Vec6<double> integral(double from, double to) const {
     constexpr double offset = 0.7745966692414834, weights[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+    const int pieces = std::max(1, static_cast<int>(std::ceil(4.0 * (to - from))));
+    const double width = (to - from) / pieces;
     motion::Vec6<double> sum = motion::Vec6<double>::zero();
-    for (int k = 0; k < 3; ++k) {
-      const double s = 0.5 * (from + to) + 0.5 * (to - from) * offset * (k - 1);
+    for (int k = 0; k < 3 * pieces; ++k) {
+      const double s = from + width * (k / 3 + 0.5 + 0.5 * offset * (k % 3 - 1));
       const elements::SectionMotion<double> m = section_at(s);
       const motion::Mat3<double> R = port_[E::reference].H.R * m.relative.R;
-      sum += (weights[k] * (to - from) * e_.length) * to_frame(m.relative, load_on(m, R));
+      sum += (weights[k % 3] * width * e_.length) * to_frame(m.relative, load_on(m, R));
     }
     return sum;
   }

@@ -12,7 +12,7 @@ namespace bough::run {
 namespace {
 
 constexpr std::size_t most_stretches = 4096;
-constexpr int samples = 512;           ///< of a law over the run, for the size of its changes
+constexpr long samples = 512;          ///< of a law over the run, for the size of its changes
 constexpr double of_level = 1e-3;      ///< changes below this part of the values do not count
 constexpr double negligible = 0.01;    ///< of the impulse: bounds below it are not looked at more closely
 constexpr double missed_share = 0.05;  ///< of the impulse: above this the steps do not see the law
@@ -64,15 +64,18 @@ class Comparison {
 };
 
 /// Integral over the run of the distance of a law from the straight line between its ends, by samples.
-double impulse_of(const laws::Law& law, double begin, double end) {
+double impulse_of(const laws::Law& law, double begin, double end, long steps) {
+  constexpr long most = 1L << 17;
+  const long count = std::clamp(steps, samples, most);  // what the steps see counts
   const auto value = [&](double t) {
     const double v = law.at(t).value;
     return std::isfinite(v) ? v : 0.0;
   };
-  const double first = value(begin), slope = (value(end) - first) / (end - begin), width = (end - begin) / samples;
+  const double first = value(begin), slope = (value(end) - first) / (end - begin),
+               width = (end - begin) / static_cast<double>(count);
   double sum = 0.0;
-  for (int k = 0; k < samples; ++k) {
-    const double t = begin + (k + 0.5) * width, v = value(t);
+  for (long k = 0; k < count; ++k) {
+    const double t = begin + (static_cast<double>(k) + 0.5) * width, v = value(t);
     sum += width * (std::abs(v - first - slope * (t - begin)) + of_level * std::abs(v));
   }
   return sum;
@@ -122,9 +125,11 @@ std::string LawWatch::text() const {
   if (stretches_.empty()) return {};
   const double begin = stretches_.front().begin;
   const double end = stretches_.back().begin + static_cast<double>(stretches_.back().steps) * stretches_.back().step;
+  long steps = 0;
+  for (const Stretch& s : stretches_) steps += s.steps;
   for (const plan::LawPlan& law : plan_.laws) {
     if (law.law.is_constant()) continue;
-    const double impulse = impulse_of(law.law, begin, end);
+    const double impulse = impulse_of(law.law, begin, end, steps);
     Comparison of(law.law);
     std::priority_queue<Piece> pieces;
     double missed = 0.0, seen = 0.0, most = 0.0;

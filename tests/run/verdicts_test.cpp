@@ -75,9 +75,9 @@ TEST(Verdict, a_step_that_it_names_sees_the_pulse) {
 }
 
 TEST(Verdict, a_wave_faster_than_the_steps_is_told) {
-  const Outcome aliased = run_of(on_rail(R"({"kind": "harmonic", "amplitude": 100, "frequency": 6503})"));
+  const Outcome aliased = run_of(on_rail(R"({"kind": "harmonic", "amplitude": 100, "omega": 6503})"));
   EXPECT_NE(doubt(aliased, "error", "do not see the law"), "") << all_doubts(aliased);
-  const Outcome seen = run_of(on_rail(R"({"kind": "harmonic", "amplitude": 100, "frequency": 200})"));
+  const Outcome seen = run_of(on_rail(R"({"kind": "harmonic", "amplitude": 100, "omega": 200})"));
   EXPECT_EQ(all_doubts(seen), "");
 }
 

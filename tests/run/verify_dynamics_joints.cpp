@@ -191,7 +191,8 @@ TEST(Joints, a_rod_that_shortens_lifts_its_load) {
 TEST(Joints, two_bodies_on_a_rod_whirl_about_their_centre) {
   // The rod of 1.4 m takes hold beside the centres of both bodies and turns at 2 rad/s about an axis normal to it,
   // without gravity. Bodies of 1 and 2 kg are 1 and 0.5 m from the common centre of mass, which moves on at constant
-  // speed; both turn with the rod, so its force is m r w^2 = 4 N. Steps describe each body relative to a frame that flies with it,
+  // speed; both turn with the rod, so its force is m r w^2 = 4 N. Steps describe each body relative to a frame that
+  // flies with it,
   // in which its path is no circle: errors are of second order, some (w h)^2 = 6.4e-5 of a radian turned.
   const Outcome outcome = support::run(support::scene_of(R"({
     "bodies": [{"name": "a", "mass": 1, "inertia": [0.1, 0.2, 0.3], "position": [0.6, 0.8, 0]},

@@ -30,11 +30,11 @@ double bisect(double stable, double unstable, const std::function<bool(double)>&
   return 0.5 * (stable + unstable);
 }
 
-/// Directions in the plane.
-int unstable_at(const scene::Scene& scene) {
+/// Directions in the plane. is_known: loads that follow may make vibrations grow, which is not known without masses.
+int unstable_at(const scene::Scene& scene, bool is_known = true) {
   const support::Outcome run = support::run(scene);
   EXPECT_TRUE(run.ok()) << run.summary.cause;
-  EXPECT_TRUE(run.summary.stability->is_known);
+  EXPECT_EQ(run.summary.stability->is_known, is_known || run.summary.stability->unstable_directions > 0);
   return run.summary.stability->unstable_directions;
 }
 
@@ -124,7 +124,7 @@ TEST(Stability, loads_that_follow_are_judged_by_the_sign_of_the_determinant) {
   // and flutter is not seen.
   const std::string follows = R"(, "axes": "body")";
   const double load = bisect(8.0, 12.0, [&](double p) {
-    return unstable_at(hinged_column(p, std::string(one_step) + R"(, "max_iterations": 40)", follows)) > 0;
+    return unstable_at(hinged_column(p, std::string(one_step) + R"(, "max_iterations": 40)", follows), false) > 0;
   });
   EXPECT_NEAR(load, 9.826953089652771, 2e-5 * load);
   const support::Outcome beck = support::run(clamped_column(15.0, R"("load_steps": 4)", 0.0, follows));
