@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bough/plan/unknowns.hpp"
+#include "bough/scene/joint_kinds.hpp"
 #include "bough/scene/poses.hpp"
 #include "bough/scene/scene.hpp"
 #include "linkage.hpp"
