@@ -25,6 +25,7 @@ constexpr double spectral_radius = 0.8;
 /// is nearer to the last: fewer are needed the less the nodes turn. What is left acts as a force that moves with the
 /// error and would make it grow in a thousand turns.
 constexpr int most_solutions = 14;
+constexpr double lost = 1e50;  ///< size of an error that tells nothing any more, whose squares are finite
 constexpr double solved = 1e-6, not_solved = 1e-2;  ///< change by the last solution, relative to that over the step
 constexpr double rounding = 1e-6;  ///< of the error: smaller changes over a step are resolved no better
 /// Size of the velocities at which residuals are differenced, relative to the size of the structure in a step: far
@@ -96,7 +97,7 @@ std::optional<Trouble> ErrorTransport::carry(const State& state) {
   const double h = state.time - time_;
   if (!(h > 0.0)) return std::nullopt;
   time_ = state.time;
-  if (!(size() > 0.0) || !std::isfinite(size())) return std::nullopt;
+  if (!(size() > 0.0) || !(size() < lost)) return std::nullopt;
   return solve_rates(state, h);
 }
 

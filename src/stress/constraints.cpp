@@ -201,7 +201,7 @@ void held_by_nothing(Bench& bench) {
   s.joints = {scene::make_joint("ball", scene::JointKind::spherical, "", Vec3::zero(), "root", Vec3::zero())};
   s.sensors.pop_back();
   s.point_loads = {scene::make_load("tip", {{0.0, 1.0, 0.0}})};
-  bench.expect_refusal(s, {"nothing holds"});
+  bench.expect_refusal(s, {"nothing but loads can hold"});
 }
 
 }  // namespace

@@ -64,12 +64,12 @@ TEST(Verdict, a_pulse_shorter_than_a_step_is_told_and_one_that_steps_resolve_is_
 }
 
 TEST(Verdict, a_step_that_it_names_sees_the_pulse) {
-  const Outcome missed = run_of(on_rail(R"({"expression": "1e5*exp(-((t-0.5005)/5e-5)^2) "})"));
+  const Outcome missed = run_of(on_rail(R"({"expression": "1e5*exp(-((t-0.5005)/5e-5)^2) + 1e-9"})"));
   const std::string text = doubt(missed, "error", "take steps of ");
   ASSERT_NE(text, "");
   const std::string step = support::text(std::stod(text.substr(text.find("take steps of ") + 14)));
   const Outcome named =
-      run_of(on_rail(R"({"expression": "1e5*exp(-((t-0.5005)/5e-5)^2) "})", R"("step_size": )" + step));
+      run_of(on_rail(R"({"expression": "1e5*exp(-((t-0.5005)/5e-5)^2) + 1e-9"})", R"("step_size": )" + step));
   EXPECT_NEAR(named.history.last("v"), 8.862269, 0.1) << step;
   EXPECT_EQ(all_doubts(named), "");
 }
