@@ -18,8 +18,8 @@ struct TrustLimits {
   /// Energy taken by the integrator, relative to the largest energy. Unresolved vibrations are damped on purpose; a
   /// tenth of all energy changes amplitudes by a twentieth.
   double energy_taken = 0.1;
-  /// Momentum that no impulse explains, over the largest momentum or impulse. Runs of the gallery stay below 3e-3; a
-  /// body whose path bends by this much lands visibly elsewhere.
+  /// Momentum that no impulse explains, over the largest momentum or impulse: a body whose path bends by a
+  /// hundredth lands visibly elsewhere.
   double momentum_lost = 1e-2;
   /// Energy balance at any time, relative to the largest energy: what the integrator added or took on the way, or an
   /// energy that is not counted.

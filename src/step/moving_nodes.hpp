@@ -46,7 +46,7 @@ void move_nodes(NodesOn<G>& nodes, std::span<const NodeEight> eights, const Node
                 NodeChange<G>* changes);
 
 /// The frames of a step of generalized-alpha: what chooses them, and the step's start relative to them, which
-/// predict_nodes writes. Both are empty where nothing turns.
+/// predict_nodes writes. Both are empty where nothing flies.
 template <class G>
 struct Drifts {
   const DriftChoice<G>& choice;
