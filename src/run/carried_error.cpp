@@ -112,6 +112,7 @@ std::optional<step::Trouble> CarriedError::carry(const step::State& state) {
   if (auto t = transport_.carry(state)) return t;
   budget_ -= 0.1 * transport_.num_solutions();  // one is about a tenth of such a step
   largest_ = std::max(largest_, transport_.size());
+  if (state.time <= 0.5 * duration_) largest_early_ = largest_;
   return std::nullopt;
 }
 
@@ -142,8 +143,8 @@ void CarriedError::choose_stride(const step::State& state, double turn, double s
   const auto wanted = static_cast<long>(std::min(steps, 1e6));
   all_ += spent;
   const double turned = static_cast<double>(stride_) * turn;
-  const bool is_coarse = (turned > most_turn && stride_ > 1) || spun > most_spin;
-  if (is_coarse || !transport_.is_solved()) unresolved_ += spent;
+  if ((stride_ > 1 && (turned > most_turn || spun > most_spin)) || !transport_.is_solved()) unresolved_ += spent;
+  if (spun > most_spin) too_much_ = std::numeric_limits<double>::infinity();  // steps of the run are no finer
   const long smooth = std::clamp(wanted, stride_ / 2, stride_ + 1 + stride_ / 4);  // jumps of the size leave their mark
   stride_ = std::clamp(std::max(least, smooth), 1L, most_stride);
 }

@@ -2,6 +2,7 @@
 /// Element matrices, products with them, and the scales computed from them. Internal to solve; shared by both solvers.
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -69,6 +70,12 @@ class ElementStore {
     double normwise = 0.0;
     double size = 0.0;  ///< |A| |x| + |b|, the reference of the normwise error.
     bool finite = true;
+    /// Sets the normwise error. Products below the range of normal numbers lose digits that no solution can have: a
+    /// size at which that shows counts as the smallest one at which it does not.
+    void measure(double residual) {
+      constexpr double least = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
+      normwise = residual / (size > least ? size : least);
+    }
   };
   /// r = b - A x and the backward error of x in scaled variables.
   Errors eval_residual(const tree::Walker& walker, const Scales& scales, const double* x, const double* b, double* r);

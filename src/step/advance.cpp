@@ -78,9 +78,11 @@ struct AlphaStep {
     start.visit([&]<class G>(const NodesOn<G>& from) {
       NodesOn<G>& nodes = state.resize_as<G>(start);
       keep_held(from, nodes, order);
+      const Drifts<G> drifts = drifts_of<G>(system);
+      find_frames<G>(drifts.choice, from, order, drifts.start.frames);
       auto some = [&](std::int64_t begin, std::int64_t end) {
         note_most(system, begin, end,
-                  predict_nodes(rule, drifts_of<G>(system), start.predictor_order, from, nodes, order,
+                  predict_nodes(rule, drifts, start.predictor_order, from, nodes, order,
                                 static_cast<std::size_t>(begin), static_cast<std::size_t>(end)));
       };
       system.walker().for_each_chunk(order.by_visit().count(), eight_grain, tree::make_chunk(some));

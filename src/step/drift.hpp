@@ -3,13 +3,16 @@
 ///
 /// The rule adds velocities and accelerations in the axes of the node. A body that spins and flies has a constant
 /// velocity V whose components R^T V turn with the body, so that the rule would bend its path by .14 w (w h)^2 V. A
-/// change to another inertial frame is exact. Relative to one that moves with the mass centre of the node's bodies, and
-/// falls with g where all of the scene flies, the body only turns, and the rule keeps its linear momentum to round-off.
-/// Each step chooses such a frame for each node of what nothing ties to the ground. What is tied moves on circles rather
-/// than on lines: twists in the axes of its nodes are constant in a steady rotation, for which the rule is exact.
+/// change to another inertial frame is exact. Relative to one that moves with the mass centre of an assembly, and falls
+/// with g where all of the scene flies, a rigid assembly only turns: each of its nodes has a constant twist in a steady
+/// rotation, for which the rule is exact, and linear momentum is kept to round-off. Each step chooses such a frame for
+/// each assembly of what nothing ties to the ground. Beams and joints make an assembly; springs, bushings and contacts
+/// do not, since what they couple may spin at different rates. What is tied moves about points at rest: the frame of the
+/// ground is its own.
 #include "bough/elements/evaluate.hpp"
 #include "bough/motion/vectors_on.hpp"
 #include "bough/step/node_drift.hpp"
+#include "bough/step/state.hpp"
 
 namespace bough::step {
 
@@ -35,14 +38,17 @@ typename G::template Vector<S> without(typename G::template Vector<S> v, const t
   return v;
 }
 
-/// The frame of a node with this pose and v. fall: g along the axes in which R is given.
+/// The frame of a node with these axes. velocity: of its assembly, and fall: g, along the axes in which R is given.
 template <class G, class S>
-Drift<G, S> choose_drift(const typename G::template Pose<S>& H, const typename G::template Vector<S>& v,
-                         const typename G::template Translation<S>& center, const S& flies,
-                         const typename G::template Translation<S>& fall) {
-  const typename G::template Translation<S> of_center = G::linear(v) + G::spin(v, center);
-  return {flies * of_center, G::turned_back(H, fall)};
+Drift<G, S> drift_at(const typename G::template Pose<S>& H, const typename G::template Translation<S>& velocity,
+                     const typename G::template Translation<S>& fall) {
+  return {G::turned_back(H, velocity), G::turned_back(H, fall)};
 }
+
+/// Velocities of the mass centres of all assemblies: sum of R (m v + w x m c), over the sum of m.
+template <class G>
+void find_frames(const DriftChoice<G>& choice, const NodesOn<G>& nodes, const NodeOrder& order,
+                 std::vector<typename G::template Translation<double>>& frames);
 
 template <class G>
 DriftChoice<G> make_drift_choice(const plan::Plan& plan, const NodeOrder& order);

@@ -350,22 +350,29 @@ void keep_held(const NodesOn<G>& start, NodesOn<G>& state, const NodeOrder& orde
 
 namespace {
 
-/// Chooses the frames of eight nodes at the start of a step, and takes the start to these frames. Rates of a frame at
-/// the time of a_n follow from two terms of their series.
+/// Takes the start of a step of eight nodes to the frames of their assemblies. Rates of a frame at the time of a_n
+/// follow from two terms of their series.
 template <class G>
 void drift_from(const AlphaRule& rule, const DriftChoice<G>& choice, const Mover<G, Pack>& m,
-                const VectorLanes<G>& algorithmic, std::size_t k, typename DriftedStart<G>::Eight& to) {
+                const VectorLanes<G>& algorithmic, std::size_t k, DriftedStart<G>& start) {
   using Translation = typename DriftedStart<G>::Translation;
   const double h = rule.h;
   const typename G::template Pose<Pack> H{m.R, Translation::zero()};
-  const auto& eight = choice.eights[k];
-  const Drift<G, Pack> drift = choose_drift<G, Pack>(H, m.v, eight.center, eight.flies, lanes::cast<Pack>(choice.fall));
+  Translation velocity = Translation::zero();
+  for (int l = 0; l < elements::num_lanes; ++l) {
+    const int assembly = choice.eights[k].assembly[static_cast<std::size_t>(l)];
+    if (assembly < 0) continue;
+    for (int i = 0; i < G::translations; ++i) velocity[i].set(l, start.frames[static_cast<std::size_t>(assembly)][i]);
+  }
+  const Drift<G, Pack> drift = drift_at<G, Pack>(H, velocity, lanes::cast<Pack>(choice.fall));
+  typename DriftedStart<G>::Eight& to = start.eights[k];
   const Translation rate = drift.rate(m.v), second = drift.second(m.v, m.a);
   to.v = without<G, Pack>(m.v, drift.velocity);
   to.a = without<G, Pack>(m.a, rate);
   to.algorithmic = without<G, Pack>(algorithmic, Translation(rate + (rule.c.shift() * h) * second));
   to.way = h * drift.velocity + (0.5 * h * h) * drift.fall;
-  to.velocity = G::turned(H, Translation(drift.velocity + h * drift.fall));
+  to.velocity = velocity;
+  if (choice.falls) to.velocity = Translation(velocity + h * lanes::cast<Pack>(choice.fall));
 }
 
 }  // namespace
@@ -380,7 +387,7 @@ double predict_nodes(const AlphaRule& rule, const Drifts<G>& drifts, int degree,
     gather_motion(start, eight, m);
     if constexpr (G::turns)
       if (!drifts.choice.eights.empty())
-        drift_from(rule, drifts.choice, m, start.algorithmic.eight(k), k, drifts.start.eights[k]);
+        drift_from(rule, drifts.choice, m, start.algorithmic.eight(k), k, drifts.start);
     const StartRates<G> from(start, drifts.start, k, eight);
     const VectorLanes<G> change =
         predicted_change(degree, start.acceleration_trend.eight(k), start.trend_change.eight(k));

@@ -239,17 +239,19 @@ struct FrameRates {
 };
 /// That of the step that begins with these nodes.
 template <class G>
-FrameRates<G> frame_of(System& system, const NodesOn<G>& nodes, std::size_t n) {
+FrameRates<G> frame_of(System& system, const std::vector<typename G::template Translation<double>>& frames,
+                       const NodesOn<G>& nodes, std::size_t n) {
   FrameRates<G> frame;
   if constexpr (G::turns) {
     const auto& choice = std::get<DriftChoice<G>>(system.work().drift_choice);
     if (choice.eights.empty()) return frame;
     const NodeOrder::Place at = system.node_order()->place(n);
     const auto& node = nodes.motion[n];
-    const auto& eight = choice.eights[at.eight];
+    const int assembly = choice.eights[at.eight].assembly[static_cast<std::size_t>(at.lane)];
+    auto velocity = G::template Translation<double>::zero();
+    if (assembly >= 0) velocity = frames[static_cast<std::size_t>(assembly)];
     const Drift<G, double> drift =
-        choose_drift<G, double>({node.R, G::template Translation<double>::zero()}, node.v,
-                                lanes::get_lane(eight.center, at.lane), eight.flies[at.lane], choice.fall);
+        drift_at<G, double>({node.R, G::template Translation<double>::zero()}, velocity, choice.fall);
     const auto rate = drift.rate(node.v), second = drift.second(node.v, node.a);
     for (int i = 0; i < G::translations; ++i) {
       frame.twist[i] = drift.velocity[i];
@@ -279,8 +281,10 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
     const auto& choice = std::get<DriftChoice<G>>(system.work().drift_choice);
     slopes.drifts = !choice.eights.empty();
     slopes.falls = choice.falls;
+    auto& frames = std::get<DriftedStart<G>>(system.work().drifted).frames;
+    find_frames<G>(choice, nodes, *system.node_order(), frames);
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
-      const FrameRates<G> frame = frame_of(system, nodes, n);
+      const FrameRates<G> frame = frame_of(system, frames, nodes, n);
       system.places().set_node_part(frame_jerk.data(), static_cast<int>(n), frame.jerk);
       if constexpr (G::turns) nodes.motion[n].drift = G::linear(frame.twist);
     }
@@ -313,12 +317,13 @@ StartReport start_alpha(System& system, State& state, const StepOptions& options
   std::vector<double>& steady_error = rhs;
   state.change_all([&]<class G>(NodesOn<G>& nodes) {
     std::fill(steady_error.begin(), steady_error.end(), 0.0);
+    const auto& frames = std::get<DriftedStart<G>>(system.work().drifted).frames;
     for (auto* known : {&nodes.algorithmic, &nodes.acceleration_trend, &nodes.trend_change})
       known->assign_zero(system.node_order());
     for (std::size_t n = 0; n < nodes.motion.size(); ++n) {
       const auto& node = nodes.motion[n];
       const typename NodesOn<G>::Vector jerk = part_on<G>(system, x, n);
-      const FrameRates<G> frame = frame_of(system, nodes, n);
+      const FrameRates<G> frame = frame_of(system, frames, nodes, n);
       nodes.algorithmic.set(n, node.a + (c.shift() * h) * typename NodesOn<G>::Vector(jerk + frame.jerk));
       nodes.acceleration_trend.set(n, h * jerk);
       system.places().set_node_part(

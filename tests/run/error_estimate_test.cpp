@@ -86,6 +86,8 @@ void check(const Case& c) {
                 error, estimate, doubted ? "doubted" : "not doubted");
     if (error < 0.5) {  // beyond, errors are as large as the motion and grow no more
       EXPECT_GT(estimate, error / 4.0) << c.what << ", " << step;
+      // Free beams vibrate with local errors of changing sign, whose absolute values are summed up. A hundredth of the
+      // range is a fourth of what is doubted.
       EXPECT_LT(estimate, error * 5.0 + 0.01) << c.what << ", " << step;
     }
     if (error > 0.12) {

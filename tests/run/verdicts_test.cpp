@@ -81,6 +81,25 @@ TEST(Verdict, a_wave_faster_than_the_steps_is_told) {
   EXPECT_EQ(all_doubts(seen), "");
 }
 
+/// Two weights on rods of half a metre, let go from the horizontal (overrides: other angles, times).
+constexpr const char* two_weights = R"({"gravity": [0, 0, -9.81],
+  "bodies": [{"name": "a", "mass": 1, "inertia": [1e-4, 1e-4, 1e-4], "position": [0.5, 0, 0]},
+             {"name": "b", "mass": 1, "inertia": [1e-4, 1e-4, 1e-4], "position": [1, 0, 0]}],
+  "joints": [{"name": "A", "kind": "revolute", "first": "ground", "second": "a", "position": [0, 0, 0],
+              "axis": [0, 1, 0]},
+             {"name": "B", "kind": "revolute", "first": "a", "second": "b", "position": [0.5, 0, 0],
+              "axis": [0, 1, 0]}],
+  "sensors": [{"name": "b", "kind": "position", "at": "b"}],
+  "analysis": {"kind": "dynamic", "end_time": 15, "step_size": 1e-3}})";
+
+TEST(Verdict, chaotic_motion_is_doubted_once_its_errors_have_grown_and_not_before) {
+  const Outcome late = run_of(two_weights);
+  EXPECT_NE(doubt(late, "error", "grow"), "") << all_doubts(late);
+  EXPECT_NE(doubt(late, "error", "sensitive"), "") << all_doubts(late);
+  const Outcome early = run_of(two_weights, {"/analysis/end_time=1"});
+  EXPECT_EQ(all_doubts(early), "");
+}
+
 /// A mass on a spring and a damper under a harmonic force.
 constexpr const char* forced = R"({
   "bodies": [{"name": "m", "mass": 800, "inertia": [1, 1, 1]}],

@@ -26,6 +26,21 @@ TEST(Scaling, ConditionIsConstantBelowTheSmallestPeriod) {
   EXPECT_LE(reference, 1e4);
 }
 
+/// Products of numbers below the normal range have absolute errors of a unit in the last place of the smallest number,
+/// which no solution can avoid: a small right-hand side is no reason to doubt it.
+TEST(Scaling, ARightHandSideOfDenormalNumbersIsSolvedAsWellAsItCanBe) {
+  for (const Scene& scene : make_all_families(3u, 1e-3)) {
+    Solved s(scene, {}, {});
+    ASSERT_TRUE(s.factor().ok()) << scene.name;
+    const Eigen::VectorXd b = s.random_rhs(1);
+    for (const double factor : {1e-290, 1e-300, 1e-310, 1e-320}) {
+      s.solve(factor * b);
+      EXPECT_LE(s.report.backward_error, 1e-13) << scene.name << ", " << factor;
+      EXPECT_TRUE(s.report.finite);
+    }
+  }
+}
+
 /// All families, nodes between joints alone among them (the root of the tree of seed 42). At 1e-2 s stiffness rules,
 /// below 1e-5 s inertia.
 TEST(Scaling, ConditionDoesNotGrowAsTheStepFallsInAnyFamily) {

@@ -1,5 +1,6 @@
 #pragma once
 /// Frames relative to which generalized-alpha describes nodes that fly.
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -11,10 +12,12 @@ namespace bough::step {
 template <class G>
 struct DriftChoice {
   struct Eight {
-    typename G::template Translation<elements::LanePack> center;  ///< mass centre of a node's bodies, in its axes [m]
-    elements::LanePack flies;                                     ///< 1 where nothing ties a node to the ground, else 0
+    typename G::template Translation<elements::LanePack> moment;  ///< first moment of mass, in the node's axes [kg m]
+    elements::LanePack mass;  ///< of a node's bodies and of its share of beams [kg]; 0 in lanes that repeat a node
+    std::array<int, elements::num_lanes> assembly;  ///< to which a node belongs; -1: something ties it to the ground
   };
   std::vector<Eight> eights;                      ///< by NodeOrder::eights(); empty where nothing flies and turns
+  std::vector<double> assembly_mass;              ///< [kg]
   typename G::template Translation<double> fall;  ///< acceleration of the frames, along the axes of the model [m/s^2]
   bool falls = false;                             ///< whether that is gravity, or zero
 };
@@ -30,6 +33,7 @@ struct DriftedStart {
     Translation velocity;  ///< of the frame at the end of the step, along the axes of the model [m/s]
   };
   std::vector<Eight> eights;
+  std::vector<typename G::template Translation<double>> frames;  ///< velocity of each assembly's frame at the start
 };
 
 }  // namespace bough::step
