@@ -98,8 +98,11 @@ void doubt_errors(const records::Summary& s, const TrustLimits& limits, const Tr
   const double error = worst.of_steps + worst.of_energy;
   doubts.push_back(
       {"error",
-       "'" + worst.column + "' is off by about " + number(error) + " by the end, " + number(100.0 * worst.relative()) +
-           " % of the " + number(worst.range) + " over which it ranges" +
+       "'" + worst.column + "' is " +
+           (worst.relative() > 1.0
+                ? "wrong altogether by the end, off by more than the " + number(worst.range) + " over which it ranges"
+                : "off by about " + number(error) + " by the end, " + number(100.0 * worst.relative()) + " % of the " +
+                      number(worst.range) + " over which it ranges") +
            (count > 1 ? " (and " + std::to_string(count - 1) + " more columns by more than " +
                             number(100.0 * limits.sensor_error) + " %)"
                       : "") +
