@@ -137,7 +137,7 @@ ElementStore::Errors ElementStore::eval_residual(const tree::Walker& walker, con
   for (std::size_t i = 0; i < scales.column.size(); ++i) size = larger(size, std::abs(x[i]) / scales.column[i]);
   errors.finite = std::isfinite(residual) && std::isfinite(size);
   errors.size = norm * size + rhs;
-  errors.measure(residual);
+  errors.set_normwise(residual);
   return errors;
 }
 

@@ -72,7 +72,7 @@ class ElementStore {
     bool finite = true;
     /// Sets the normwise error. Products below the range of normal numbers lose digits that no solution can have: a
     /// size at which that shows counts as the smallest one at which it does not.
-    void measure(double residual) {
+    void set_normwise(double residual) {
       constexpr double least = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
       normwise = residual / (size > least ? size : least);
     }

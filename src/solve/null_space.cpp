@@ -263,7 +263,7 @@ void Hierarchical::State::leave_out_zeros(ElementStore::Errors& errors, SolveRep
   }
   for (std::size_t i = 0; i < residual.size(); ++i) met = std::max(met, std::abs(scales.row[i] * residual[i]));
   report.rank_error = left_out / errors.size;
-  errors.measure(met);
+  errors.set_normwise(met);
 }
 
 /// Subtracts from the right-hand side its part in the left null space. Dependent rows that contradict each other have

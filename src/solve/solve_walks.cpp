@@ -130,7 +130,7 @@ ElementStore::Errors Hierarchical::State::eval_residual(const tree::Walker& walk
   ElementStore::Errors errors;
   errors.finite = std::isfinite(most.residual) && std::isfinite(most.x);
   errors.size = norm * most.x + most.rhs;
-  errors.measure(most.residual);
+  errors.set_normwise(most.residual);
   set_growth(most.x, most.rhs, report);
   return errors;
 }

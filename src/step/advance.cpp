@@ -79,7 +79,7 @@ struct AlphaStep {
       NodesOn<G>& nodes = state.resize_as<G>(start);
       keep_held(from, nodes, order);
       const Drifts<G> drifts = drifts_of<G>(system);
-      find_frames<G>(drifts.choice, from, order, drifts.start.frames);
+      if (!drifts.choice.eights.empty()) find_frames<G>(drifts.choice, from, order, drifts.start.frames);
       auto some = [&](std::int64_t begin, std::int64_t end) {
         note_most(system, begin, end,
                   predict_nodes(rule, drifts, start.predictor_order, from, nodes, order,

@@ -197,10 +197,9 @@ void Signals::add_observed_slopes(const plan::SignalPlan& signal, double* row) c
 }
 
 /// Newton's method for the states alone. All others are functions of these, which are evaluated in their order.
-void Signals::observe(State& state, double slope) {
+void Signals::observe_all(State& state, double slope) {
   const std::size_t driving = plan::driving_signals(plan_).size(), count = plan_.signals.size(),
                     states = observed_states_.size();
-  if (driving == count) return;
   constexpr int most = 20;
   constexpr double settled = 1e-15;
   const elements::Field field = instant_.field_of(state, observed_nodes_, nodes_);

@@ -13,7 +13,7 @@ mkdir -p "$scratch/$kind"
 
 # build_library OPTION...
 build_library() {
-  cmake -G Ninja -S "$source" -B "$build" -DBUILD_SHARED_LIBS=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O0 -g1" \
+  cmake -G Ninja -S "$source" -B "$build" -DBUILD_SHARED_LIBS=ON -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O0 -g1" \
     -DCMAKE_CXX_COMPILER="$compiler" -DBOUGH_BUILD_TESTS=OFF -DBOUGH_BUILD_APPS=OFF -DCMAKE_INSTALL_PREFIX="$prefix" "$@"
   cmake --build "$build" --parallel 2
 }

@@ -26,7 +26,9 @@ class Signals {
   void follow_motion(State& state);
   /// Computes the signals that only observe, of an accepted state. Their states solve s' = f with s' = slope s + c, of
   /// which the present value and rate tell c; slope 0: s' = 0. Does not touch what drives the motion. Allocates nothing.
-  void observe(State& state, double slope);
+  void observe(State& state, double slope) {
+    if (static_cast<std::size_t>(plan_.num_driving_signals) < plan_.signals.size()) observe_all(state, slope);
+  }
   /// Completes a series of all laws by the values of signals and their rates along the motion. second: receives the
   /// second derivatives of states, s'' = df/dt, by signal; zero for others.
   void add_rates(const State& state, std::vector<lanes::Taylor<double, 1>>& laws, std::vector<double>& second);
@@ -52,6 +54,7 @@ class Signals {
   LinearSolution& linear_;
   template <class G>
   void follow(State& state, const elements::FieldOn<G, double>& field, std::size_t begin, std::size_t end);
+  void observe_all(State& state, double slope);
   void add_observed_slopes(const plan::SignalPlan& signal, double* row) const;
 
   std::vector<double> inputs_, slopes_, row_;  ///< scratch, of one signal
