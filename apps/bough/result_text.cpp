@@ -32,6 +32,24 @@ std::string balances_text(const records::Checks& checks) {
   return text + "  momentum balance   " + rounded_text(checks.momentum_balance, 3) + " kg m/s\n";
 }
 
+/// What the tree of sub-domains was, if the form of the solver has one.
+std::string interfaces_text(const records::Summary& summary) {
+  if (summary.levels.empty()) return {};
+  int subdomains = 0, widest = 0;
+  double condition = 0.0;
+  for (const records::LevelFigures& level : summary.levels) {
+    subdomains += level.subdomains;
+    widest = std::max(widest, level.interface_unknowns);
+    condition = std::max(condition, level.condition);
+  }
+  std::string text = "  interfaces         ";
+  if (subdomains == 1) return text + "none: one sub-domain\n";
+  text += std::to_string(subdomains - 1) + " on " + std::to_string(summary.levels.size() - 1) + " levels, of up to " +
+          std::to_string(widest) + " unknowns";
+  if (condition > 0.0) text += ", condition of their flexibilities up to " + rounded_text(condition, 2);
+  return text + "\n";
+}
+
 std::string checks_text(const records::Summary& summary) {
   const records::Checks& checks = summary.checks;
   std::string text;
@@ -42,6 +60,7 @@ std::string checks_text(const records::Summary& summary) {
       text += ", " + rounded_text(checks.constraint_violation_velocity, 3) + " in velocity";
     text += "\n";
   }
+  text += interfaces_text(summary);
   text += "  linear solutions   backward error up to " + rounded_text(checks.linear_backward_error_max, 2) + "\n";
   if (checks.round_off_floor_reached)
     text += "  Newton reached the floor of round-off before its tolerance in some steps\n";

@@ -57,6 +57,17 @@ void estimate_solution_error(step::System& system, const step::State& state, Sum
   summary.solver.emplace_back("solution_error_estimate", shift / moved);
 }
 
+/// Forms differ in what they do at interfaces.
+void note_missing_interfaces(const EndedRun& run) {
+  const scene::SolverForm form = run.scene.solver.form;
+  if (form == scene::SolverForm::local || form == scene::SolverForm::monolithic) return;
+  if (run.system.linear().tree().num_subdomains() == 1)
+    run.recording.account().note(
+        "the form of the solver has nothing to act on: the tree is one sub-domain without an interface, where all "
+        "forms "
+        "are the same; \"depth\" or a smaller \"leaf_size\" in /solver cuts it");
+}
+
 }  // namespace
 
 void judge(const EndedRun& run) {
@@ -83,6 +94,7 @@ void judge(const EndedRun& run) {
     if (!cause.empty() && !account.fail(cause)) recording.take_figures();  // no expected figure of a failed run holds
   }
   summary.solver = solver_figures(run.system, account.dependent_rows());
+  note_missing_interfaces(run);
   if (summary.status == RunStatus::ok) {
     look_at_last_factor(run.system, summary);
     if (run.analysis.ends_in_correction()) estimate_solution_error(run.system, run.state, summary);

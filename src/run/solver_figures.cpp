@@ -66,6 +66,16 @@ bool has_narrow_interfaces(const tree::Tree& tree) {
   return widest_interface(tree) <= widest_for_condition && tree.num_subdomains() <= 10000;
 }
 
+/// Interfaces of the forms that have a tree of them.
+std::vector<solve::InterfaceReport> interfaces_of(step::System& system) {
+  // The walker of the run may be timed, and this factorization is not one of its steps.
+  const tree::Walker walker = schedule::make_serial_walker();
+  solve::AnySolver& solver = system.linear().solver();
+  if (solver.augmented() != nullptr) return solver.augmented()->interfaces(widest_for_condition);
+  return solver.hierarchical() != nullptr ? solver.hierarchical()->interfaces(walker)
+                                          : std::vector<solve::InterfaceReport>{};
+}
+
 /// Levels of the tree with their widths, and the condition numbers of their interfaces if these are narrow.
 std::vector<records::LevelFigures> make_levels(step::System& system) {
   const tree::Tree& tree = system.linear().tree();
@@ -79,9 +89,7 @@ std::vector<records::LevelFigures> make_levels(step::System& system) {
   }
   for (std::size_t l = 0; l < levels.size(); ++l) levels[l].level = static_cast<int>(l);
   if (!has_narrow_interfaces(tree)) return levels;
-  // The walker of the run may be timed, and this factorization is not one of its steps.
-  const tree::Walker walker = schedule::make_serial_walker();
-  for (const solve::InterfaceReport& i : system.linear().solver().hierarchical()->interfaces(walker)) {
+  for (const solve::InterfaceReport& i : interfaces_of(system)) {
     records::LevelFigures& level = levels[static_cast<std::size_t>(i.level)];
     level.condition = std::max(level.condition, i.condition);
   }
@@ -137,14 +145,17 @@ void add_backward_errors(step::System& system, const solve::Hierarchical& solver
 }  // namespace
 
 void look_at_last_factor(step::System& system, records::Summary& summary) {
-  const solve::Hierarchical* solver = system.linear().solver().hierarchical();
-  if (solver == nullptr || system.counts().factorizations == 0 || !solver->last_status().ok()) return;
+  const solve::AnySolver& any = system.linear().solver();
+  const solve::Hierarchical* solver = any.hierarchical();
+  if (solver == nullptr && any.augmented() == nullptr) return;
+  if (system.counts().factorizations == 0 || !any.last_status().ok()) return;
   summary.levels = make_levels(system);
   if (has_narrow_interfaces(system.linear().tree())) {
     double most = 1.0;
     for (const records::LevelFigures& level : summary.levels) most = std::max(most, level.condition);
     summary.solver.emplace_back("interface_condition_max", most);
   }
+  if (solver == nullptr) return;
   const double condition =
       estimate_condition(system, *solver, [&](const std::vector<double>& b, const std::vector<double>& x, double norm) {
         add_backward_errors(system, *solver, b, x, norm, summary.levels);
@@ -181,7 +192,8 @@ decltype(records::Summary::solver) solver_figures(step::System& system, int depe
     figures.emplace_back("interface_seconds", i.seconds);
     figures.emplace_back("interface_iterations", i.iterations);
   }
-  if (system.linear().solver().hierarchical() != nullptr && system.counts().factorizations > 0)
+  const solve::AnySolver& any = system.linear().solver();
+  if ((any.hierarchical() != nullptr || any.augmented() != nullptr) && system.counts().factorizations > 0)
     figures.emplace_back("interface_unknowns_max", static_cast<double>(widest_interface(tree)));
   return figures;
 }

@@ -10,8 +10,6 @@ namespace bough::solve {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-Matrix inverse(const Matrix& a) { return Eigen::PartialPivLU<Matrix>(a).inverse(); }
-
 std::optional<Matrix> solve_if_regular(const Matrix& a, const Matrix& b) {
   const Eigen::FullPivLU<Matrix> lu(a);
   if (!lu.isInvertible()) return std::nullopt;

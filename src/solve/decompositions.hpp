@@ -7,9 +7,6 @@
 
 namespace bough::solve {
 
-/// A^-1 by partial pivoting; not finite if a pivot is zero.
-Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);
-
 /// A^-1 B by full pivoting; no value if A does not have full rank.
 std::optional<Eigen::MatrixXd> solve_if_regular(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 

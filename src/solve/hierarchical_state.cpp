@@ -11,8 +11,7 @@ namespace bough::solve {
 Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const SolveOptions& o)
     : tree(t),
       options(o),
-      lanes(make_lane_plan(graph, t, o.lanes && o.elimination == Elimination::flat,
-                           o.elimination == Elimination::flat ? o.symmetry : Symmetry::general)),
+      lanes(make_lane_plan(graph, t, o.lanes, o.symmetry)),
       elements(graph, t, lanes.element_first, lanes.element_stride, lanes.num_values),
       lane_scales(lanes) {
   const std::size_t n = at(tree.num_unknowns()), num_fronts = at(tree.num_fronts());
@@ -28,10 +27,6 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   fronts.resize(num_fronts);
   enlarged.resize(num_fronts);
   symmetry.declared = symmetry.used = options.symmetry;
-  if (is_symmetric() && options.elimination == Elimination::augmented) {
-    symmetry.used = Symmetry::general;
-    symmetry.loss = SymmetryLoss::augmented_elimination;
-  }
   vector_begin.assign(1, 0);
   index_begin.assign(1, 0);
   row_begin.assign(1, 0);
@@ -58,7 +53,6 @@ Hierarchical::State::State(const blocks::BlockGraph& graph, const tree::Tree& t,
   schur_pool.resize(at(schur_places.pool));
   vector_pool.resize(at(vector_begin.back()));
   index_pool.resize(at(index_begin.back()));
-  if (options.elimination == Elimination::augmented) augmented.resize(at(tree.num_subdomains()));
   lane_vectors.assign(lanes.unknowns.size(), 0.0);
   lane_tops.assign(at(std::max<std::int64_t>(lanes.top_size, 1) * lanes_wide),
                    0.0);  // tops without unknowns also point into it

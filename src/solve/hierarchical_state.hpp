@@ -92,12 +92,6 @@ struct RootCopy {
 /// Root pivots below this, scaled, are examined before they are used.
 constexpr double suspect_pivot = 1e-5;
 
-/// Textbook condensation of one interface: F and F^-1 as they were computed.
-struct AugmentedInterface {
-  std::vector<double> flexibility, inverse, penalty, work;
-  bool used = false;
-};
-
 /// Largest scaled magnitudes that one group found.
 struct SolutionSizes {
   double residual = 0.0, rhs = 0.0, x = 0.0;
@@ -138,8 +132,7 @@ struct Hierarchical::State {
   std::vector<int> row_unknowns;  ///< unknowns of the rows of every front: eliminated ones, then the boundary (pool)
   std::vector<Run> runs;          ///< of the boundaries of fronts, in their parents (pool)
   std::vector<Run> element_runs;  ///< of the blocks of elements, by tree::Tree::scatter_begin
-  std::vector<tree::FrontId> scalar_fronts;   ///< fronts that are never in lanes
-  std::vector<AugmentedInterface> augmented;  ///< by sub-domain; empty unless elimination is augmented
+  std::vector<tree::FrontId> scalar_fronts;  ///< fronts that are never in lanes
   NullSpace null_space;
   std::vector<char> leaves_to_root;  ///< by front: its rows turned out not to be dependent, in the present scales
   RootCopy root_copy;                ///< SolveOptions::inertia
@@ -284,9 +277,6 @@ struct Hierarchical::State {
   void add_constraint_forces(int element, int count);
   double add_negligible_part();
   // interfaces.cpp
-  void condense_through_flexibility(tree::SubdomainId s);
-  void correct_forward(tree::SubdomainId s);
-  std::vector<double> interface_stiffness(tree::SubdomainId s) const;
   void copy_schur(tree::FrontId f, double* to);
   InterfaceReport report_interface(tree::SubdomainId s, int widest);
 

@@ -115,14 +115,12 @@ void Hierarchical::State::forward_group(int index, bool while_factoring) {
         forward_lane_front(f, factor_of(lanes.fronts[at(f)]));
       }
     });
-  const tree::SubdomainId s = group.subdomains.front();
-  const tree::Subdomain& sub = tree.subdomains[at(s)];
+  const tree::Subdomain& sub = tree.subdomains[at(group.subdomains.front())];
   const tree::FrontId last = while_factoring ? sub.front_end - 1 : tree.num_fronts() - 1;
   for (tree::FrontId f = sub.front_begin; f < sub.front_end; ++f) {
     if (fronts_are_far && f < last) prefetch_front(f + 1);
     forward_front(f);
   }
-  if (options.elimination == Elimination::augmented && s != tree.root()) correct_forward(s);
 }
 
 void Hierarchical::State::backward_group(int index) {

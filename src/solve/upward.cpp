@@ -10,7 +10,6 @@ namespace bough::solve {
 void Hierarchical::State::factor_subdomain(tree::SubdomainId s) {
   const tree::Subdomain& sub = tree.subdomains[at(s)];
   for (tree::FrontId f = sub.front_begin; f < sub.front_end; ++f) factor_front(f);
-  if (options.elimination == Elimination::augmented && s != tree.root()) condense_through_flexibility(s);
 }
 
 void Hierarchical::State::factor_front(tree::FrontId f) {

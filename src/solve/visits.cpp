@@ -17,8 +17,7 @@ void add_front(VisitShape& shape, int eliminated, int boundary) {
 }  // namespace
 
 VisitShapes make_visit_shapes(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options) {
-  const Symmetry symmetry = options.elimination == Elimination::flat ? options.symmetry : Symmetry::general;
-  LanePlan plan = make_lane_plan(graph, tree, options.lanes && options.elimination == Elimination::flat, symmetry);
+  LanePlan plan = make_lane_plan(graph, tree, options.lanes, options.symmetry);
   VisitShapes shapes;
   for (const LaneGroup& group : plan.groups) {
     VisitShape shape{.subdomains = group.subdomains, .in_lanes = group.in_lanes};
@@ -47,7 +46,7 @@ VisitShapes make_visit_shapes(const blocks::BlockGraph& graph, const tree::Tree&
         const tree::Front& front = tree.fronts[at(f)];
         add_front(shape, front.num_eliminated, front.num_boundary);
         shape.factor_bytes +=
-            FrontShape(front.size(), front.num_eliminated, symmetry != Symmetry::general).factor_size() *
+            FrontShape(front.size(), front.num_eliminated, options.symmetry != Symmetry::general).factor_size() *
             static_cast<std::int64_t>(sizeof(double));
       }
     }

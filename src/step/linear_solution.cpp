@@ -65,6 +65,7 @@ LinearSolution::LinearSolution(const plan::Plan& plan, const scene::Solver& solv
       solver_(make_solver(plan, *tree_, solver)),
       visits_(solver_->visits(plan.graph.num_blocks())),
       takes_symmetric_parts_(plan.took("symmetric")) {
+  good_ = make_solve_options(plan, solver).refinement_above;
   if (walker.threads == 1) visits_ = in_runs(std::move(visits_));
   element_begin_.push_back(0);
   const std::span<const solve::ElementBatch> batches = std::as_const(*solver_).batches();
@@ -103,7 +104,7 @@ std::optional<Trouble> LinearSolution::factor(bool rescale, const elements::Slop
   const bool is_like_the_last = !rescale && has_factor(slopes);
   if (!is_like_the_last) solver_->rescale();
   const bool was_trusted =
-      is_trusted_ && is_like_the_last && last_solution_.backward_error <= good_with_a_digit_to_spare;
+      is_trusted_ && is_like_the_last && last_solution_.backward_error <= 0.1 * good_;
   is_factored_ = is_trusted_ = false;
   contraction_ = 1.0;
   service_cost_ = renewal_cost_;
@@ -180,7 +181,7 @@ std::optional<Trouble> LinearSolution::find_trouble(const solve::SolveReport& so
   unchecked_ = 0;
   ++counts_.checks;
   last_solution_ = solution;
-  is_trusted_ = last_solution_.backward_error <= good && last_solution_.refinement_steps == 0;
+  is_trusted_ = last_solution_.backward_error <= good_ && last_solution_.refinement_steps == 0;
   if (!last_solution_.interface_converged)
     return Trouble{"the iteration on the interface problem gave up after " +
                    std::to_string(last_solution_.interface_iterations) +

@@ -255,6 +255,12 @@ TEST_P(VerifySolver, all_forms_agree) {
     v.solver.form = form;
     compare(bar, run(v), what, needed, most);
   }
+  for (const double factor : {1e-3, 1e3}) {
+    scene::Scene v = s;
+    v.solver.form = scene::SolverForm::augmented;
+    v.solver.penalty_factor = factor;
+    compare(bar, run(v), factor < 1.0 ? "augmented, a small penalty" : "augmented, a large penalty", needed, most);
+  }
   print_clauses(GetParam(), bar, needed, most);
 }
 

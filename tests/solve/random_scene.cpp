@@ -141,6 +141,11 @@ Scene SceneMaker::finish(std::string name) {
   return scene_;
 }
 
+Scene make_symmetric(Scene scene) {
+  for (Eigen::MatrixXd& a : scene.elements) a = Eigen::MatrixXd(0.5 * (a + a.transpose()));
+  return scene;
+}
+
 Scene make_definite(Scene scene) {
   for (blocks::BlockKind& kind : scene.graph.block_kind) kind = blocks::BlockKind::motion;
   for (MatrixXd& a : scene.elements) {

@@ -59,6 +59,8 @@ class SceneMaker {
 /// The same graph with every element matrix Q |L| Q^T instead of its symmetric part Q L Q^T: positive definite.
 /// Multipliers become motion.
 Scene make_definite(Scene scene);
+/// Element matrices become their symmetric parts.
+Scene make_symmetric(Scene scene);
 
 /// Scenes of the families: chain, tree, loop, star, lattice, parts (several unconnected), rigid chain, with joints
 /// sprinkled in.

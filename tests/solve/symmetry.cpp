@@ -16,11 +16,6 @@ namespace {
 using solve::Symmetry;
 using solve::SymmetryLoss;
 
-Scene make_symmetric(Scene scene) {
-  for (Eigen::MatrixXd& a : scene.elements) a = Eigen::MatrixXd(0.5 * (a + a.transpose()));
-  return scene;
-}
-
 std::vector<Scene> make_symmetric_families() {
   std::vector<Scene> scenes = make_all_families(4);
   scenes.push_back(make_lattice(4, 12, 12));
@@ -148,14 +143,6 @@ TEST(Symmetry, IsLookedAtInEveryFactorizationAndMatricesAreEvaluatedOnce) {
         EXPECT_LE(s.report.backward_error, 1e-13) << scene.name;
         EXPECT_EQ(s.solver.counters().factorizations, 2);
       }
-}
-
-TEST(Symmetry, IsGivenUpByNameWhereAugmentedEliminationCondenses) {
-  const Scene scene = make_symmetric(make_chain(4, 6, 2));
-  Solved s(scene, {}, {.elimination = solve::Elimination::augmented, .symmetry = Symmetry::symmetric});
-  ASSERT_TRUE(s.factor().ok());
-  EXPECT_EQ(s.solver.symmetry().used, Symmetry::general);
-  EXPECT_EQ(s.solver.symmetry().loss, SymmetryLoss::augmented_elimination);
 }
 
 TEST(Symmetry, HasNoVerdictOnWhatIsNotFinite) {

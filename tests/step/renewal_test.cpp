@@ -112,13 +112,6 @@ TEST(Tree, is_one_subdomain_where_cuts_only_add_interfaces) {
   lattice.solver.form = scene::SolverForm::local;
   lattice.solver.depth = 2;
   EXPECT_GT(count(lattice, {}), 1) << "a depth is given";
-  lattice.solver.depth = -1;
-  scene::Sensor force;
-  force.name = "force";
-  force.kind = scene::SensorKind::interface_force;
-  force.subdomain = "0";
-  lattice.sensors.push_back(force);
-  EXPECT_GT(count(lattice, {}), 1) << "an interface is read";
 }
 
 }  // namespace

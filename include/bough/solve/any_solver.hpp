@@ -3,6 +3,7 @@
 #include <utility>
 #include <variant>
 
+#include "bough/solve/augmented.hpp"
 #include "bough/solve/hierarchical.hpp"
 #include "bough/solve/reference/dual.hpp"
 #include "bough/solve/reference/monolithic.hpp"
@@ -19,6 +20,7 @@ class AnySolver {
   AnySolver(Monolithic solver) : solver_(std::move(solver)) {}
   AnySolver(SparseOracle solver) : solver_(std::move(solver)) {}
   AnySolver(Dual solver) : solver_(std::move(solver)) {}
+  AnySolver(Augmented solver) : solver_(std::move(solver)) {}
 
   /// The memory to which the assembler writes an element matrix, initially zero. Values stay until they are
   /// overwritten; elements of a leaf are adjacent.
@@ -107,9 +109,11 @@ class AnySolver {
   Hierarchical* hierarchical() { return std::get_if<Hierarchical>(&solver_); }
   /// The form with global multipliers, or null if another solver is stored.
   const Dual* dual() const { return std::get_if<Dual>(&solver_); }
+  /// The form with augmented sub-domains, or null if another solver is stored.
+  const Augmented* augmented() const { return std::get_if<Augmented>(&solver_); }
 
  private:
-  std::variant<Hierarchical, Monolithic, SparseOracle, Dual> solver_;
+  std::variant<Hierarchical, Monolithic, SparseOracle, Dual, Augmented> solver_;
 };
 
 }  // namespace bough::solve

@@ -5,14 +5,6 @@
 
 namespace bough::solve {
 
-/// How a sub-domain is condensed to its interface.
-enum class Elimination {
-  flat,  ///< boundary last: S is formed without adding the penalty; no digit depends on it.
-  /// Through the interface flexibility, S = s^2 F^-1 - P, on the scalar path: the method as it is written, which loses
-  /// a digit for each decade of penalty.
-  augmented,
-};
-
 /// Check of a solution in solve().
 enum class SolveCheck {
   none,  ///< the backward error is not computed (NaN in the report).
@@ -28,22 +20,21 @@ enum class Symmetry {
 };
 
 struct SolveOptions {
-  Elimination elimination = Elimination::flat;
-  /// Symmetric: half the work, less memory (flat elimination only). Every factorization checks every element matrix
+  /// Symmetric: half the work, less memory. Every factorization checks every element matrix
   /// (unless Hierarchical::trust_symmetry() is set). If one differs from its transpose, the solver permanently changes
   /// to general and reports it in Hierarchical::symmetry().
   Symmetry symmetry = Symmetry::general;
   /// The root's front is stored as assembled, for Hierarchical::inertia().
   bool inertia = false;
-  /// Equal sub-domains are factored in lockstep, eight per pack (flat elimination only).
+  /// Equal sub-domains are factored in lockstep, eight per pack.
   bool lanes = true;
   /// Bytes of matrices and factors in lanes above which a factorization prefetches its input and writes
   /// factors past the caches. Results have the same bits. 0: an eighth of the last cache, which other programs use as
   /// well, but at least 16 MB.
   std::int64_t near_bytes = 0;
   double penalty_factor =
-      1.0;  ///< P = factor x the interface's own stiffness diagonal [-], > 0. Flat: affects reports only.
-  double multiplier_scale = 1.0;  ///< s of the local multipliers [-], > 0, in scaled variables.
+      1.0;  ///< P = factor x the interface's own stiffness |diag S| [-], > 0. Hierarchical: of reports alone.
+  double multiplier_scale = 1.0;  ///< Augmented: s of the local multipliers [-], > 0, in scaled variables.
   double pivot_threshold =
       1e-2;  ///< u [-], 0 < u <= 1: a pivot of at least u times its column's largest entry is accepted.
   double tiny_pivot = 1e-10;  ///< [-] in scaled variables: smaller pivots are delayed to the parent front.

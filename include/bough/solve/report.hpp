@@ -53,9 +53,8 @@ struct SolveReport {
 
 /// Why values that were declared symmetric are not factored as such.
 enum class SymmetryLoss {
-  none,                   ///< they are, or they were not declared symmetric.
-  values,                 ///< an element matrix differs from its transpose: SymmetryReport::element.
-  augmented_elimination,  ///< Elimination::augmented condenses by general inverses.
+  none,    ///< they are, or they were not declared symmetric.
+  values,  ///< an element matrix differs from its transpose: SymmetryReport::element.
 };
 
 /// The factorization that a solver uses, and why.
@@ -82,10 +81,10 @@ struct Inertia {
 struct InterfaceReport {
   tree::SubdomainId subdomain = tree::none;
   int level = 0;
-  int num_unknowns = 0;  ///< motion unknowns and multipliers tied to the interface mesh.
-  int num_delayed = 0;   ///< unknowns whose pivots were delayed past this interface.
-  double condition =
-      1.0;             ///< of P^1/2 F P^1/2 on the motion unknowns that joints leave free, F = s^2 (S + P)^-1 (2-norm).
+  int num_unknowns = 0;     ///< motion unknowns and multipliers tied to the interface mesh.
+  int num_delayed = 0;      ///< unknowns whose pivots were delayed past this interface.
+  double condition = 1.0;   ///< of P^1/2 F P^1/2 on the tied displacements, F = s^2 (S + P)^-1 (2-norm).
+  bool is_definite = true;  ///< S is positive, up to round-off: only then the condition is bounded by its size.
   int num_coarse = 0;  ///< global multipliers: unknowns of the coarse problem (interface mesh and floating directions).
   int num_floating = 0;  ///< global multipliers: of these, directions in which sub-domains float or nearly do.
   double flops = 0.0;    ///< of the interface problem, one factorization (iterative: the last solution) [flop].

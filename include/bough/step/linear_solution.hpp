@@ -110,9 +110,9 @@ class LinearSolution {
   /// Solutions from one check of the backward error to the next: on chains a check takes as long as the solution
   /// itself.
   static constexpr int check_every = 32;
-  /// Backward error of a solution that needed no refinement, and one with a digit to spare: the next factor of the same
-  /// scales and slopes is then trusted before it was checked.
-  static constexpr double good = 1e-14, good_with_a_digit_to_spare = 1e-15;
+  /// Backward error of a solution that needed no refinement: that of SolveOptions::refinement_above. With a digit to
+  /// spare, the next factor of the same scales and slopes is trusted before it was checked.
+  double good_ = 0.0;
 
   const plan::Plan& plan_;
   BlockOwners owners_;

@@ -11,10 +11,6 @@
 
 namespace bough::solve {
 
-namespace {
-constexpr double contradiction = 1e-10;  ///< share of the right-hand side above which dependent rows disagree
-}  // namespace
-
 Dual::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const DualOptions& f, const SolveOptions& o)
     : tree(t),
       form(f),
@@ -22,12 +18,9 @@ Dual::State::State(const blocks::BlockGraph& graph, const tree::Tree& t, const D
       elements(graph, t),
       batches(elements.single_batches()),
       fronts(elements, t),
+      dependent(elements, scales, options),
       buffers(at(t.num_unknowns())) {
   for (auto* v : {&scales.row, &scales.column, &scales.weight}) v->assign(at(tree.num_unknowns()), 1.0);
-  is_constraint.assign(at(tree.num_unknowns()), 0);
-  for (int b = 0; b < graph.num_blocks(); ++b)
-    for (std::int64_t u = tree.unknown_begin[at(b)]; u < tree.unknown_begin[at(b) + 1]; ++u)
-      is_constraint[at(u)] = graph.block_kind[at(b)] == blocks::BlockKind::multiplier ? 1 : 0;
   tear(graph);
 }
 
@@ -89,13 +82,7 @@ void Dual::State::solve_scaled(const tree::Walker& walker, const double* b, doub
   for (const int place : untouched) rhs(place) += b[mesh[at(place)]];
   solve_interface(rhs, solution);
   recover(walker, solution, x);
-  for (Eigen::Index v = 0; v < null_right.cols(); ++v) {  // least multipliers
-    double sum = 0.0;
-    for (std::size_t i = 0; i < is_constraint.size(); ++i)
-      sum += scales.weight[i] * scales.weight[i] * x[i] * null_right(static_cast<Eigen::Index>(i), v);
-    for (std::size_t i = 0; i < is_constraint.size(); ++i)
-      if (is_constraint[i] != 0) x[i] -= sum * null_right(static_cast<Eigen::Index>(i), v);
-  }
+  dependent.make_least(x);
 }
 
 FactorStatus Dual::factor(const tree::Walker& walker) {
@@ -135,27 +122,8 @@ SolveReport Dual::solve(const tree::Walker& walker, const double* rhs, double* x
   ++s.counters.solutions;
   s.iterations = 0;
   s.converged = true;
-  Eigen::VectorXd b = Eigen::Map<const Eigen::VectorXd>(rhs, s.tree.num_unknowns());
-  if (s.null_left.cols() >
-      0) {  // contradicting dependent rows have no solution: the nearest right-hand side that has one is used
-    const Eigen::Map<const Eigen::VectorXd> row(s.scales.row.data(), b.size());
-    const Eigen::VectorXd scaled = row.cwiseProduct(b), share = s.null_left.transpose() * scaled;
-    const Eigen::VectorXd part = s.null_left * share;
-    report.inconsistency = scaled.norm() > 0.0 ? share.norm() / scaled.norm() : 0.0;
-    double worst = 0.0;
-    for (int k = 0; k + 1 < static_cast<int>(s.tree.unknown_begin.size()); ++k) {
-      const auto first = static_cast<Eigen::Index>(s.tree.unknown_begin[at(k)]);
-      const auto size = static_cast<Eigen::Index>(s.tree.unknown_begin[at(k) + 1]) - first;
-      if (part.segment(first, size).squaredNorm() <= worst) continue;
-      worst = part.segment(first, size).squaredNorm();
-      report.inconsistent_block = k;
-      report.inconsistent_amount =
-          part.segment(first, size).cwiseQuotient(row.segment(first, size)).cwiseAbs().maxCoeff();
-    }
-    // A smaller contradiction is round-off of the null vectors. Its removal would move parts that the load leaves at
-    // rest (a planar mechanism out of its plane).
-    if (report.inconsistency > contradiction) b -= part.cwiseQuotient(row);
-  }
+  std::vector<double> b(rhs, rhs + s.tree.num_unknowns());
+  s.dependent.make_consistent(b.data(), report);
   solve_and_refine(walker, s.elements, s.scales, s.options, s.options.refinement_steps,
                    s.options.check == SolveCheck::backward_error, s.buffers, b.data(), x, report,
                    [&](const double* load, double* y) { s.solve_scaled(walker, load, y); });
@@ -168,7 +136,7 @@ SolverCounters Dual::counters() const {
   const State& s = *state_;
   SolverCounters c = s.counters;
   std::size_t doubles = s.coarse.a.capacity() + s.interface.a.capacity() + at(s.reduced.size()) +
-                        at(s.preconditioner.size()) + at(s.null_right.size()) + at(s.null_left.size());
+                        at(s.preconditioner.size()) + s.dependent.num_doubles();
   for (const LeafInterface& leaf : s.leaves)
     doubles += leaf.a.capacity() + at(leaf.flexibility.size() + leaf.right.size() + leaf.left.size());
   c.memory_bytes = s.elements.memory_bytes() + static_cast<std::int64_t>(doubles * sizeof(double));
@@ -177,16 +145,7 @@ SolverCounters Dual::counters() const {
   return c;
 }
 
-std::vector<int> Dual::blocks_not_unique() const {
-  const State& s = *state_;
-  std::vector<int> blocks;
-  for (int b = 0; b < s.elements.graph().num_blocks() && s.null_right.cols() > 0; ++b) {
-    const auto first = static_cast<Eigen::Index>(s.tree.unknown_begin[at(b)]);
-    const auto size = static_cast<Eigen::Index>(s.tree.unknown_begin[at(b) + 1]) - first;
-    if (s.null_right.middleRows(first, size).cwiseAbs().maxCoeff() > 1e-8) blocks.push_back(b);
-  }
-  return blocks;
-}
+std::vector<int> Dual::blocks_not_unique() const { return state_->dependent.blocks(); }
 
 std::vector<InterfaceReport> Dual::interfaces() const {
   const State& s = *state_;

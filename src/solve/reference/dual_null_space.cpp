@@ -1,10 +1,8 @@
 /// Remaining unknowns of the interface problem: null vectors of the whole matrix, or unknowns that can be eliminated.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "bough/blocks/at.hpp"
-#include "decompositions.hpp"
 #include "dual_state.hpp"
 
 namespace bough::solve {
@@ -13,10 +11,6 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-/// Distance to a singular matrix at which motion counts as free: round-off leaves up to some 1e-14 of a refined null
-/// vector, since the remaining rows and columns are not an orthogonal basis. A structure that is so close to floating
-/// (a static chain of two thousand beams) is rejected.
-constexpr double free_motion = 1e-13;
 }  // namespace
 
 /// Vectors that the whole matrix maps nearly to zero, with the remaining columns (rows) of the interface problem set to
@@ -64,87 +58,19 @@ void Dual::State::eval_candidates(const tree::Walker& walker, Matrix& right, Mat
   }
 }
 
-/// One step of refinement: z <- z - A^+ A z, with A^+ the solution for fixed remaining unknowns. Pivots of sub-domains
-/// down to 1e-6 reduce the accuracy of z.
-void Dual::State::sharpen(const tree::Walker& walker, Matrix& candidates) {
-  const Eigen::Map<const Vector> row(scales.row.data(), candidates.rows());
-  const Eigen::Map<const Vector> column(scales.column.data(), candidates.rows());
-  Vector image(candidates.rows()), correction(candidates.rows());
-  for (Eigen::Index v = 0; v < candidates.cols(); ++v) {
-    const Vector x = column.cwiseProduct(candidates.col(v));
-    elements.multiply(walker, x.data(), image.data());
-    image = row.cwiseProduct(image).eval();
-    solve_scaled(walker, image.data(), correction.data());
-    candidates.col(v) -= correction;
-  }
-}
-
-/// Number of directions in the span of the candidates that the matrix maps to zero, by |A z| / |z| with a product with
-/// the element matrices themselves.
-int Dual::State::count_null_vectors(const tree::Walker& walker, const Matrix& candidates) {
-  const Matrix Q = orthonormal_basis(candidates.colwise().normalized());
-  const Eigen::Map<const Vector> row(scales.row.data(), Q.rows()), column(scales.column.data(), Q.rows());
-  Matrix image(Q.rows(), Q.cols());
-  for (Eigen::Index j = 0; j < Q.cols(); ++j) {
-    const Vector x = column.cwiseProduct(Q.col(j));
-    elements.multiply(walker, x.data(), image.col(j).data());
-    image.col(j) = row.cwiseProduct(image.col(j));
-  }
-  const RightSingularVectors singular = right_singular_vectors(triangular_factor(image));
-  int count = 0;
-  for (Eigen::Index j = 0; j < Q.cols(); ++j) {
-    const Vector z = Q * singular.vectors.col(j);
-    double motion = 0.0;
-    for (Eigen::Index i = 0; i < z.size(); ++i)
-      if (is_constraint[at(i)] == 0) motion += z(i) * z(i);
-    const bool moves = std::sqrt(motion) > options.null_motion_tolerance;
-    if (!(singular.values(j) > (moves ? std::max(free_motion, options.singular_tolerance) : options.rank_tolerance)))
-      ++count;
-  }
-  return count;
-}
-
 void Dual::State::decide_rank(const tree::Walker& walker) {
-  null_right.resize(0, 0);
-  null_left.resize(0, 0);
+  dependent.forget();
   if (interface.pivots == interface.size) return;
-  Matrix candidates;
-  eval_candidates(walker, candidates, nullptr);
-  if (candidates.allFinite()) sharpen(walker, candidates);
-  const int dependent = candidates.allFinite() ? count_null_vectors(walker, candidates) : 0;
-  FrontMatrix front = interface.front();
-  interface.pivots =
-      eliminate_completely(front, interface.pivots, interface.size - dependent, std::numeric_limits<double>::min());
-  if (interface.pivots < interface.size) find_null_vectors(walker);
-}
-
-/// Orthonormal null vectors, the right ones in exact scaling, and the verdict.
-void Dual::State::find_null_vectors(const tree::Walker& walker) {
-  Matrix right, left;  // the members stay empty meanwhile, since solutions are projected on them
-  eval_candidates(walker, right, &left);
-  sharpen(walker, right);
-  null_right = right;
-  null_left = left;
-  const Eigen::Map<const Vector> weight(scales.weight.data(), null_right.rows());
-  null_right = weight.asDiagonal() * null_right;
-  null_right = orthonormal_basis(null_right.colwise().normalized());
-  null_left = orthonormal_basis(null_left.colwise().normalized());
-  status.deficiency = static_cast<int>(null_right.cols());
-  double worst = 0.0;
-  std::int64_t unknown = 0;
-  for (Eigen::Index i = 0; i < null_right.rows(); ++i) {
-    if (is_constraint[at(i)] != 0 || !(null_right.row(i).squaredNorm() > worst)) continue;
-    worst = null_right.row(i).squaredNorm();
-    unknown = i;
-  }
-  if (std::sqrt(worst) > options.null_motion_tolerance) {
-    status.outcome = FactorOutcome::singular;
-    status.front = tree.num_fronts() - 1;
-    status.block = block_of_unknown(tree, unknown);
-    status.local = static_cast<int>(unknown - tree.unknown_begin[at(status.block)]);
-    status.magnitude = std::sqrt(worst);
-  }
-  null_right = weight.cwiseInverse().asDiagonal() * null_right;
+  const RemainingUnknowns remaining{[&](Matrix& right, Matrix* left) { eval_candidates(walker, right, left); },
+                                    [&](const double* b, double* x) { solve_scaled(walker, b, x); },
+                                    [&](int left) {
+                                      FrontMatrix front = interface.front();
+                                      interface.pivots =
+                                          eliminate_completely(front, interface.pivots, interface.size - left,
+                                                               std::numeric_limits<double>::min());
+                                      return interface.size - interface.pivots;
+                                    }};
+  dependent.decide(walker, remaining, status);
 }
 
 }  // namespace bough::solve

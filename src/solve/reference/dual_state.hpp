@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "bough/solve/reference/dual.hpp"
-#include "leaf_fronts.hpp"
+#include "dependent_rows.hpp"
 #include "refine.hpp"
+#include "subdomain_fronts.hpp"
 
 namespace bough::solve {
 
@@ -28,7 +29,7 @@ struct BoundaryUnknown {
 struct LeafInterface {
   tree::SubdomainId id = tree::none;
   std::vector<BoundaryUnknown> boundary;             ///< in the order of the leaf's boundary blocks
-  std::vector<int> order;                            ///< local -> position among the unknowns kept by LeafFronts
+  std::vector<int> order;                            ///< local -> position among the unknowns kept by SubdomainFronts
   std::vector<std::pair<int, double>> ties;          ///< (tie, sign)
   std::vector<int> tie_boundary;                     ///< by entry of ties: position in boundary
   std::vector<int> tie_row, tie_column;              ///< the same: row and column in the factored matrix
@@ -79,9 +80,6 @@ struct Dual::State {
   double eval_condition() const;
   // dual_null_space.cpp
   void eval_candidates(const tree::Walker& walker, Eigen::MatrixXd& right, Eigen::MatrixXd* left);
-  void sharpen(const tree::Walker& walker, Eigen::MatrixXd& candidates);
-  int count_null_vectors(const tree::Walker& walker, const Eigen::MatrixXd& candidates);
-  void find_null_vectors(const tree::Walker& walker);
   void decide_rank(const tree::Walker& walker);
   // dual.cpp
   void visit_leaves(const tree::Walker& walker, bool up, const std::function<void(LeafInterface&)>& body);
@@ -95,9 +93,8 @@ struct Dual::State {
   ElementStore elements;
   Scales scales;
   bool scales_wanted = true;
-  std::vector<std::uint8_t> is_constraint;
   std::vector<ElementBatch> batches;
-  LeafFronts fronts;
+  SubdomainFronts fronts;
   std::vector<LeafInterface> leaves;
   std::vector<int> leaf_of_subdomain;
   std::vector<int> untouched;  ///< indices in the mesh of unknowns in no element
@@ -110,7 +107,7 @@ struct Dual::State {
   Eigen::MatrixXd reduced,
       preconditioner;  ///< the interface problem before its elimination; iterative: its preconditioner
   bool is_symmetric = false;
-  Eigen::MatrixXd null_right, null_left;
+  DependentRows dependent;
   int iterations = 0;
   bool converged = true;
   double seconds = 0.0;

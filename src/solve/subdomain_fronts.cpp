@@ -1,4 +1,4 @@
-#include "leaf_fronts.hpp"
+#include "subdomain_fronts.hpp"
 
 #include <algorithm>
 
@@ -6,12 +6,30 @@
 
 namespace bough::solve {
 
-LeafFronts::LeafFronts(const ElementStore& elements, const tree::Tree& tree)
-    : elements_(elements), tree_(tree), fronts_(at(tree.num_fronts())) {}
+SubdomainFronts::SubdomainFronts(const ElementStore& elements, const tree::Tree& tree, bool has_copies)
+    : elements_(elements), tree_(tree), fronts_(at(tree.num_fronts())) {
+  if (has_copies) find_own_places();
+}
+
+void SubdomainFronts::find_own_places() {
+  std::vector<int> place(at(tree_.num_unknowns()), -1);
+  for (const tree::Subdomain& sub : tree_.subdomains) {
+    int count = 0;
+    const auto boundary = tree_.boundary_blocks(tree_.fronts[at(sub.top())]);
+    for (const int b : boundary)
+      for (auto u = tree_.unknown_begin[at(b)]; u < tree_.unknown_begin[at(b) + 1]; ++u) place[at(u)] = count++;
+    for (tree::FrontId f = sub.front_begin; f < sub.front_end; ++f)
+      for (const int b : tree_.boundary_blocks(tree_.fronts[at(f)]))
+        for (auto u = tree_.unknown_begin[at(b)]; u < tree_.unknown_begin[at(b) + 1]; ++u)
+          fronts_[at(f)].own_place.push_back(place[at(u)]);
+    for (const int b : boundary)
+      for (auto u = tree_.unknown_begin[at(b)]; u < tree_.unknown_begin[at(b) + 1]; ++u) place[at(u)] = -1;
+  }
+}
 
 /// Calls add(child, row of this front for each row that the child passes up).
 template <class Add>
-void LeafFronts::for_children(tree::FrontId f, Add&& add) const {
+void SubdomainFronts::for_children(tree::FrontId f, Add&& add) const {
   const tree::Front& shape = tree_.fronts[at(f)];
   const int delayed_in = fronts_[at(f)].full - shape.num_eliminated;
   std::vector<int> place;
@@ -28,7 +46,7 @@ void LeafFronts::for_children(tree::FrontId f, Add&& add) const {
   }
 }
 
-void LeafFronts::assemble(tree::FrontId f, const Scales& scales) {
+void SubdomainFronts::assemble(tree::FrontId f, const Scales& scales) {
   const tree::Front& shape = tree_.fronts[at(f)];
   Numbers& d = fronts_[at(f)];
   const auto& first = tree_.unknown_begin;
@@ -53,6 +71,7 @@ void LeafFronts::assemble(tree::FrontId f, const Scales& scales) {
   d.load.assign(at(d.size), 0.0);
   d.work.assign(at(d.size), 0.0);
   std::vector<int> place, unknown;
+  std::vector<double> local;
   for (int p = shape.element_begin; p < shape.element_end; ++p) {
     const int e = tree_.element_order[at(p)];
     place.clear();
@@ -65,11 +84,15 @@ void LeafFronts::assemble(tree::FrontId f, const Scales& scales) {
       }
     }
     const ConstElementView a = elements_.view(e);
-    std::int64_t k = 0;
-    for (std::size_t i = 0; i < place.size(); ++i)
-      for (std::size_t j = 0; j < place.size(); ++j)
-        d.a[at(place[i]) + at(place[j]) * at(d.size)] +=
-            scales.row[at(unknown[i])] * a[k++] * scales.column[at(unknown[j])];
+    const std::size_t n = place.size();
+    local.resize(n * n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        local[i * n + j] =
+            scales.row[at(unknown[i])] * a[static_cast<std::int64_t>(i * n + j)] * scales.column[at(unknown[j])];
+    if (change_) change_(e, local);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) d.a[at(place[i]) + at(place[j]) * at(d.size)] += local[i * n + j];
   }
   for_children(f, [&](const Numbers& child, const std::vector<int>& to) {
     for (std::size_t j = 0; j < to.size(); ++j)
@@ -79,8 +102,8 @@ void LeafFronts::assemble(tree::FrontId f, const Scales& scales) {
   });
 }
 
-bool LeafFronts::factor(tree::SubdomainId leaf, const Scales& scales, const PivotRule& rule) {
-  const tree::Subdomain& sub = tree_.subdomains[at(leaf)];
+bool SubdomainFronts::factor(tree::SubdomainId s, const Scales& scales, const PivotRule& rule) {
+  const tree::Subdomain& sub = tree_.subdomains[at(s)];
   for (tree::FrontId f = sub.front_begin; f < sub.front_end; ++f) {
     assemble(f, scales);
     Numbers& d = fronts_[at(f)];
@@ -94,13 +117,24 @@ bool LeafFronts::factor(tree::SubdomainId leaf, const Scales& scales, const Pivo
   return true;
 }
 
-double LeafFronts::condensed(tree::SubdomainId leaf, int i, int j) const {
-  const Numbers& d = top(leaf);
+double SubdomainFronts::condensed(tree::SubdomainId s, int i, int j) const {
+  const Numbers& d = top(s);
   return d.a[at(d.pivots + i) + at(d.pivots + j) * at(d.size)];
 }
 
-const double* LeafFronts::forward(tree::SubdomainId leaf, const double* b) {
-  const tree::Subdomain& sub = tree_.subdomains[at(leaf)];
+double& SubdomainFronts::condensed(tree::SubdomainId s, int i, int j) {
+  Numbers& d = top(s);
+  return d.a[at(d.pivots + i) + at(d.pivots + j) * at(d.size)];
+}
+
+void SubdomainFronts::eliminate_completely(tree::SubdomainId s, int all_but, double least) {
+  Numbers& d = top(s);
+  FrontMatrix matrix{d.a.data(), d.size, d.full, d.rows.data(), d.columns.data(), d.row_from.data()};
+  d.pivots = solve::eliminate_completely(matrix, d.pivots, d.full - all_but, least);
+}
+
+double* SubdomainFronts::forward(tree::SubdomainId s, const double* b) {
+  const tree::Subdomain& sub = tree_.subdomains[at(s)];
   for (tree::FrontId f = sub.front_begin; f < sub.front_end; ++f) {
     Numbers& d = fronts_[at(f)];
     std::fill(d.work.begin(), d.work.end(), 0.0);
@@ -113,17 +147,17 @@ const double* LeafFronts::forward(tree::SubdomainId leaf, const double* b) {
     for (int k = 0; k < d.size; ++k) d.load[at(k)] = d.work[at(k < d.full ? d.row_from[at(k)] : k)];
     substitute_forward(d.a.data(), d.size, d.pivots, d.load.data());
   }
-  return top(leaf).load.data() + top(leaf).pivots;
+  return top(s).load.data() + top(s).pivots;
 }
 
-void LeafFronts::clear_load(tree::SubdomainId leaf) {
-  const tree::Subdomain& sub = tree_.subdomains[at(leaf)];
+void SubdomainFronts::clear_load(tree::SubdomainId s) {
+  const tree::Subdomain& sub = tree_.subdomains[at(s)];
   for (tree::FrontId f = sub.front_begin; f < sub.front_end; ++f)
     std::fill(fronts_[at(f)].load.begin(), fronts_[at(f)].load.end(), 0.0);
 }
 
-void LeafFronts::backward(tree::SubdomainId leaf, double* x) {
-  const tree::Subdomain& sub = tree_.subdomains[at(leaf)];
+void SubdomainFronts::backward(tree::SubdomainId s, double* x, const double* own) {
+  const tree::Subdomain& sub = tree_.subdomains[at(s)];
   for (tree::FrontId f = sub.front_end; f-- > sub.front_begin;) {
     Numbers& d = fronts_[at(f)];
     double* z = d.work.data();
@@ -132,13 +166,16 @@ void LeafFronts::backward(tree::SubdomainId leaf, double* x) {
     double* boundary = z + d.full;
     for (const int b : tree_.boundary_blocks(tree_.fronts[at(f)]))
       boundary = std::copy(x + tree_.unknown_begin[at(b)], x + tree_.unknown_begin[at(b) + 1], boundary);
+    if (own != nullptr)
+      for (std::size_t k = 0; k < d.own_place.size(); ++k)
+        if (d.own_place[k] >= 0) z[at(d.full) + k] = own[d.own_place[k]];
     substitute_backward(d.a.data(), d.size, d.pivots, z);
     for (int i = 0; i < d.pivots; ++i) x[d.columns[at(i)]] = z[i];
   }
 }
 
-void LeafFronts::backward_left(tree::SubdomainId leaf, double* y) {
-  const tree::Subdomain& sub = tree_.subdomains[at(leaf)];
+void SubdomainFronts::backward_left(tree::SubdomainId s, double* y) {
+  const tree::Subdomain& sub = tree_.subdomains[at(s)];
   for (tree::FrontId f = sub.front_end; f-- > sub.front_begin;) {
     Numbers& d = fronts_[at(f)];
     double* z = d.work.data();
@@ -149,6 +186,12 @@ void LeafFronts::backward_left(tree::SubdomainId leaf, double* y) {
     substitute_backward_left(d.a.data(), d.size, d.pivots, z);
     for (int i = 0; i < d.pivots; ++i) y[d.rows[at(i)]] = z[i];
   }
+}
+
+std::size_t SubdomainFronts::num_doubles() const {
+  std::size_t count = 0;
+  for (const Numbers& d : fronts_) count += d.a.capacity() + d.load.capacity() + d.work.capacity();
+  return count;
 }
 
 }  // namespace bough::solve

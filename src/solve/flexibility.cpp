@@ -1,0 +1,46 @@
+#include "flexibility.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "decompositions.hpp"
+
+namespace bough::solve {
+
+namespace {
+constexpr double no_stiffness = 1e-12;  ///< a smaller one is round-off
+constexpr double cancels = 1e-14;       ///< reciprocal condition of S + P below which P cancels S, at a factor of 1
+constexpr int most_doublings = 8;
+}  // namespace
+
+StiffenedInterface stiffen(const Eigen::MatrixXd& S, double penalty_factor) {
+  StiffenedInterface to;
+  to.penalty = S.diagonal().cwiseAbs();
+  for (double& p : to.penalty) p = penalty_factor * (p < no_stiffness ? 1.0 : p);
+  if (S.size() == 0) return to;
+  for (int k = 0;; ++k) {
+    Eigen::MatrixXd stiffened = S;
+    stiffened.diagonal() += to.penalty;
+    to.factor.compute(stiffened);
+    if (k == most_doublings || to.factor.rcond() >= cancels * std::min(1.0, penalty_factor)) return to;
+    to.penalty *= 2.0;
+  }
+}
+
+double condition_of_flexibility(const Eigen::VectorXd& penalty, const Eigen::MatrixXd& flexibility) {
+  if (penalty.size() == 0) return 1.0;
+  const Eigen::VectorXd root = penalty.cwiseSqrt();
+  const Eigen::MatrixXd scaled = root.asDiagonal() * flexibility * root.asDiagonal();
+  if (!scaled.allFinite()) return std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd values = singular_values(scaled);
+  return values(0) / values(values.size() - 1);
+}
+
+bool is_definite(const Eigen::MatrixXd& S) {
+  constexpr double round_off = 1e-12;
+  if (S.size() == 0) return true;
+  const Eigen::VectorXd values = symmetric_eigenvalues(0.5 * (S + S.transpose()));
+  return values(0) >= -round_off * values.cwiseAbs().maxCoeff();
+}
+
+}  // namespace bough::solve
