@@ -246,7 +246,7 @@ class Checker {
 
   bool check_object(const Rule& rule, JsonValue& value, const Path& path) {
     bool sound = true;
-    std::vector<std::string> missing, meant;
+    std::vector<std::string> missing, meant, free_keys;  // free_keys: known ones that the object does not have
     for (const Field& field : rule.fields)
       if (field.presence == Presence::required && value.find(field.key) == nullptr) missing.emplace_back(field.key);
     for (std::size_t i = 0; i < value.items.size(); ++i) {
@@ -263,7 +263,10 @@ class Checker {
       } else {
         sound = false;
         value.items[i].sound = false;
-        meant.push_back(unknown_key(rule, value, i, at));
+        if (meant.empty())  // once: for each of many unknown keys it would take quadratic time
+          for (const Field& f : rule.fields)
+            if (value.find(f.key) == nullptr) free_keys.emplace_back(f.key);
+        meant.push_back(unknown_key(rule, value, i, at, free_keys));
         std::erase(missing, meant.back());
       }
     }
@@ -275,16 +278,14 @@ class Checker {
   }
 
   /// Reports a key that is not known; returns the one that was probably meant, which is then not reported as missing.
-  std::string unknown_key(const Rule& rule, const JsonValue& value, std::size_t i, const Path& at) {
+  std::string unknown_key(const Rule& rule, const JsonValue& value, std::size_t i, const Path& at,
+                          const std::vector<std::string>& free_keys) {
     if (is_hopeless()) {  // the key is not shown; a search for similar keys would take quadratic time in total
       fail(value.items[i], at, "this key is not known here", {}, true);
       return {};
     }
     std::vector<std::string> known;
     for (const Field& field : rule.fields) known.emplace_back(field.key);
-    std::vector<std::string> free_keys;
-    for (const std::string& k : known)
-      if (value.find(k) == nullptr) free_keys.push_back(k);
     std::string near = scene::nearest_name(value.items.key(i), free_keys);
     if (near.empty()) near = scene::nearest_name(value.items.key(i), known);
     std::string hint = near.empty() ? "known keys: " + quoted_list(known) : "did you mean \"" + near + "\"?";

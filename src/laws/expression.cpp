@@ -43,7 +43,7 @@ class SwitchFinder {
       if (settle(box)) continue;
       const double middle = 0.5 * (box.lo + box.hi);
       const bool is_smallest = !(box.hi - box.lo > least) || !(middle > box.lo && middle < box.hi);
-      if (found_.is_limited() && work >= max_work) {
+      if (found_.is_limited() && (work >= max_work || found_.work > limited_instructions)) {
         found_.is_cut = true;
       } else if (is_smallest || work >= max_work || unsettled.size() > max_unsettled) {
         unsettled.push_back(box);
@@ -61,6 +61,7 @@ class SwitchFinder {
  private:
   static constexpr int whole_work = 1 << 20;    // boxes; a root needs a handful
   static constexpr int limited_work = 1 << 17;  // for the first thousands of roots, or to see that g is round-off
+  static constexpr double limited_instructions = 5e7;  // of a whole formula: half a second
   static constexpr std::size_t max_unsettled = 1000;
 
   double argument(double t) const { return jet(t).value; }

@@ -276,17 +276,27 @@ class Parser {
     const bool takes_more = f.op == Op::min || f.op == Op::max;
     parse_sum();
     std::size_t num_arguments = 1;
+    std::vector<std::uint32_t> open = {first};  // where the groups of arguments begin that are not joined yet
+    const auto join = [&] {
+      open.pop_back();
+      emit(f.op, open.back());
+    };
     for (std::size_t comma = at_; accept(','); comma = at_) {
       if (num_arguments == least && !takes_more) fail(comma, std::string(f.name) + " takes " + count(least));
+      open.push_back(here());
       parse_sum();
       ++num_arguments;
-      if (least == 2) emit(f.op, first);
+      // Equal numbers of arguments are joined, as in a balanced tree: in a chain the last of n operations would have
+      // n - 1 of them in its argument, and to search all arguments for changes of sign would take n^2 steps.
+      if (least == 2)
+        for (std::size_t pairs = num_arguments; pairs % 2 == 0; pairs /= 2) join();
     }
     if (peek() == ')' && num_arguments < least) {
       fail(at_, std::string(f.name) + " takes " + count(least) + (takes_more ? " or more" : ""));
     }
     close(opened);
     if (least == 1) emit(f.op, first);
+    while (open.size() > 1) join();
   }
 
   static std::string count(std::size_t n) { return n == 1 ? "one argument" : "two arguments"; }

@@ -123,6 +123,19 @@ TEST(Lookups, of_joints_signals_and_efforts) {
        {"sensors", [](int i) { return item("sensor", i, R"("kind": "signal", "signal": )" + quoted("torque", i)); }}});
 }
 
+TEST(Lookups, of_keys_that_are_not_known) {
+  const auto text_of = [](int n) {  // with keys as long as one that the scene may have
+    std::string text = R"({"schema_version": 1, "analysis": {"kind": "dynamic", "end_time": 1})";
+    for (int i = 0; i < n; ++i) text += ", \"unknown key " + std::to_string(100'000 + i) + "\": 1";
+    return text + "}";
+  };
+  static_assert(sizeof("unknown key 100000") == sizeof("initial_velocities"));
+  constexpr int size = 48;  // fewer than are told
+  const std::string small = text_of(size), large = text_of(8 * size);
+  EXPECT_LT(test::growth_by_eight([&](int n) { (void)read_scene_text(n == size ? small : large, "any"); }, size),
+            test::linear_by_eight);
+}
+
 TEST(Lookups, of_servos) {
   expect_linear({bodies,
                  hinges(),

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <functional>
@@ -242,6 +243,46 @@ TEST(Expression, nesting_is_limited_and_length_is_not) {
   for (int i = 0; i < 20; ++i) full += "t + t*t^(";
   full += "1" + std::string(20, ')');
   EXPECT_TRUE(std::isfinite(make_expression(full).at(0.5, Side::left).value));
+}
+
+/// min or max of n straight lines with as many slopes: an envelope with corners.
+std::string envelope(const std::string& name, int n) {
+  std::string text = name + "(";
+  for (int i = 0; i < n; ++i)
+    text += (i > 0 ? "," : "") + std::to_string(i) + "*t-" + std::to_string(i * i) + "/" + std::to_string(n);
+  return text + ")";
+}
+
+TEST(Expression, min_and_max_of_many_arguments_are_those_of_all) {
+  for (const int n : {2, 3, 5, 17, 64, 200}) {
+    const Law highest = make_expression(envelope("max", n)), lowest = make_expression(envelope("min", n));
+    for (const double t : {0.1, 0.5, 1.0, 1.7}) {
+      double most = -1e300, least = 1e300;
+      for (int i = 0; i < n; ++i) {
+        const double value = i * t - static_cast<double>(i * i) / n;
+        most = std::max(most, value);
+        least = std::min(least, value);
+      }
+      EXPECT_EQ(highest.at(t, Side::right).value, most) << n << " " << t;
+      EXPECT_EQ(lowest.at(t, Side::right).value, least) << n << " " << t;
+    }
+  }
+}
+
+TEST(Breakpoints, of_min_and_max_of_n_arguments_cost_n_log_n) {
+  const auto work = [](const std::string& text) { return make_expression(text).breakpoints(0.0, 2.0, 64'000).work; };
+  for (const std::string name : {"min", "max"}) {
+    const double few = work(envelope(name, 256)), many = work(envelope(name, 4096));
+    EXPECT_LT(many / few, 16.0 * 12.0 / 8.0 * 1.3) << name;  // 16 times as many, log2 12 instead of 8
+  }
+}
+
+TEST(Breakpoints, the_search_in_a_long_formula_is_given_up_after_a_stated_work) {
+  std::string text = "min(t";
+  for (int i = 0; i < 100'000; ++i) text += ",t";  // differences that intervals cannot tell from zero
+  const Breaks breaks = make_expression(text + ")").breakpoints(0.0, 2.0, 64'000);
+  EXPECT_TRUE(breaks.is_cut);
+  EXPECT_LT(breaks.work, 1e8);
 }
 
 TEST(Breakpoints, the_search_ends_where_there_are_more_than_asked_for) {
