@@ -1,11 +1,10 @@
 /// bough batch FOLDER: every scene of a folder, one thread a case.
 #include <cmath>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 #include "arguments.hpp"
 #include "bough/io/history.hpp"
+#include "bough/io/input_file.hpp"
 #include "bough/run/estimate.hpp"
 #include "case_run.hpp"
 #include "collect_run.hpp"
@@ -13,6 +12,28 @@
 #include "terminal.hpp"
 
 namespace bough::app {
+namespace {
+
+/// The scene of a case. One whose folder would take the place of a file of the batch is bad input.
+io::SceneFile read_case(const study::BatchCase& which) {
+  if (!study::is_name_of_batch(which.name)) return io::read_scene(which.scene, which.overrides);
+  io::SceneFile refused;
+  refused.problems.push_back({.value = which.scene.string(),
+                              .rule = "a batch keeps names like " + which.name + " for its own files",
+                              .hint = "give the scene another name"});
+  return refused;
+}
+
+/// The text that identifies a case. Of a file that cannot be read the reason: its case fails, and says why.
+std::string text_of_case(const study::BatchCase& which) {
+  try {
+    return io::read_text(which.scene, io::max_file_bytes);
+  } catch (const io::Unreadable& fault) {
+    return fault.what();
+  }
+}
+
+}  // namespace
 
 int batch(const BatchArguments& arguments) {
   if (!arguments.shards.empty()) return collect(arguments);
@@ -33,12 +54,7 @@ int batch(const BatchArguments& arguments) {
   }
   whole.cases = study::CaseList(std::move(cases));
   CaseSettings settings{arguments, arguments.folder.string(), kept_of(arguments, whole.cases.size())};
-  const CaseSource source{[](const study::BatchCase& which) { return io::read_scene(which.scene, which.overrides); },
-                          [](const study::BatchCase& which) {
-                            std::ifstream in(which.scene,
-                                             std::ios::binary);  // of one that cannot be read its case tells
-                            return std::string(std::istreambuf_iterator<char>(in), {});
-                          }};
+  const CaseSource source{read_case, text_of_case};
   whole.work = [&] {
     std::vector<double> work;
     for (std::size_t i = 0; i < whole.cases.size(); ++i) work.push_back(work_of(source.read(whole.cases.at(i))));

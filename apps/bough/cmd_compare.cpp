@@ -16,7 +16,7 @@ struct Side {
 };
 
 Side read_side(const std::filesystem::path& path) {
-  if (!std::filesystem::is_directory(path)) return {io::read_history(path), ""};
+  if (std::error_code unknown; !std::filesystem::is_directory(path, unknown)) return {io::read_history(path), ""};
   const io::SummaryFile summary = io::read_whole_summary(path, {"history.csv"});
   return {io::read_history(path / "history.csv"), summary.status};
 }

@@ -17,9 +17,14 @@ namespace bough::app {
 namespace {
 
 /// The study, or all of a folder by name.
+bool is_folder_of_studies(const std::filesystem::path& path) {
+  std::error_code unknown;  // of a link that leads to itself: a study that cannot be read
+  return std::filesystem::is_directory(path, unknown);
+}
+
 std::vector<std::filesystem::path> specs_in(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> specs;
-  if (!std::filesystem::is_directory(path)) return {path};
+  if (!is_folder_of_studies(path)) return {path};
   for (const auto& entry : std::filesystem::directory_iterator(path))
     if (entry.path().extension() == ".json") specs.push_back(entry.path());
   std::sort(specs.begin(), specs.end());
@@ -112,7 +117,7 @@ bool run_into(const std::filesystem::path& directory, const io::StudySpec& spec,
 
 int study_scene(const StudyArguments& arguments) {
   const std::vector<std::filesystem::path> files = specs_in(arguments.spec);
-  const bool is_folder = std::filesystem::is_directory(arguments.spec);
+  const bool is_folder = is_folder_of_studies(arguments.spec);
   if (files.empty()) {
     std::cerr << "bough: " << arguments.spec.string() << ": there is no study (*.json) in this folder\n";
     return exit_bad_input;

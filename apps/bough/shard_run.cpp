@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 #include "bough/io/digest.hpp"
+#include "bough/io/input_file.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/quantity_text.hpp"
 #include "bough/run/estimate.hpp"
@@ -67,10 +66,7 @@ std::string list_for_shards(const WholeBatch& batch, const CaseArguments& argume
   std::error_code ignored;
   if (!fs::exists(file, ignored))  // later shards take no offence at what engines write beside
     io::OutputCollection(arguments.out, batch.verb, batch.inputs).write_once(study::cases_file, batch.list);
-  std::ifstream in(file, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(in), {});
-  if (!in && text.empty()) throw std::runtime_error("cannot read " + file.string());
-  return text;
+  return io::read_text(file);
 }
 
 void take_shard(const study::Shard& shard, const CaseSource& source, WholeBatch& batch, CaseSettings& settings) {

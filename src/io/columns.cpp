@@ -1,10 +1,10 @@
 #include "bough/io/columns.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
+#include <system_error>
 
+#include "bough/io/input_file.hpp"
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
 
@@ -78,9 +78,8 @@ std::string columns_text(const records::HistoryHeader& header) {
 }
 
 void read_columns(const std::filesystem::path& path, records::HistoryHeader& header) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return;
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (std::error_code ignored; !std::filesystem::exists(path, ignored)) return;
+  const std::string text = read_text(path, max_file_bytes);
   std::vector<JsonFault> faults;
   const std::optional<JsonValue> root = parse_json(text, source_file, faults);
   const JsonValue* list = root && faults.empty() && root->is(JsonKind::object) ? root->find("columns") : nullptr;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <fstream>
-#include <stdexcept>
 #include <vector>
+
+#include "bough/io/input_file.hpp"
 
 namespace bough::io {
 
@@ -66,12 +66,11 @@ std::string digest_of(std::string_view bytes) {
 }
 
 std::string digest_of_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
+  const InputFile file(path);
   Digest digest;
   std::vector<char> buffer(std::size_t{1} << 16);
-  while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || file.gcount() > 0)
-    digest.add({buffer.data(), static_cast<std::size_t>(file.gcount())});
-  if (!file.eof()) throw std::runtime_error("cannot read " + path.string());
+  while (const std::size_t count = file.read(digest.num_bytes(), buffer.data(), buffer.size()))
+    digest.add({buffer.data(), count});
   return digest.text();
 }
 

@@ -1,10 +1,9 @@
 #include "document_report.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
-#include <system_error>
 
+#include "bough/io/input_file.hpp"
 #include "bough/io/number_text.hpp"
 
 namespace bough::io {
@@ -145,6 +144,18 @@ std::string Report::summary(const JsonValue& v) const {
   return written + " = " + rounded_text(told.number, 6);
 }
 
+/// As JsonValue::find, which looks at one key after the other: of an object with very many the keys are sorted first,
+/// since each fault may lead through it.
+const JsonValue* Report::member(const JsonValue& object, const std::string& key) const {
+  constexpr std::size_t many = 1000;
+  if (object.items.size() < many) return object.find(key);
+  auto& members = members_[&object];
+  if (members.empty())
+    for (std::size_t i = 0; i < object.items.size(); ++i) members.try_emplace(object.items.key(i), &object.items[i]);
+  const auto at = members.find(key);
+  return at == members.end() ? object.find(key) : at->second;
+}
+
 /// The value at a pointer, or the innermost existing one on the way to it; also the innermost name on the way.
 const JsonValue* Report::locate(const std::string& pointer, std::string* reached, std::string* owner) const {
   const JsonValue* at = root_;
@@ -154,7 +165,7 @@ const JsonValue* Report::locate(const std::string& pointer, std::string* reached
   for (const std::string& t : *tokens) {
     const JsonValue* next = nullptr;
     if (at->is(JsonKind::object)) {
-      next = at->find(t);
+      next = member(*at, t);
     } else if (at->is(JsonKind::array)) {
       const bool is_number = !t.empty() && t.size() < 10 && t.find_first_not_of("0123456789") == std::string::npos;
       if (is_number && std::stoul(t) < at->items.size()) next = &at->items[std::stoul(t)];
@@ -164,7 +175,7 @@ const JsonValue* Report::locate(const std::string& pointer, std::string* reached
               // named
     at = next;
     path = pointer_to(path, t);
-    const JsonValue* name = at->is(JsonKind::object) ? at->find("name") : nullptr;
+    const JsonValue* name = at->is(JsonKind::object) ? member(*at, "name") : nullptr;
     if (owner != nullptr && name != nullptr && name->is(JsonKind::string)) *owner = summary(*name);
   }
   if (reached != nullptr) *reached = path;
@@ -173,16 +184,13 @@ const JsonValue* Report::locate(const std::string& pointer, std::string* reached
 
 namespace {
 
-/// expected: the size, if it is known, so that the text need not be moved while it grows.
-std::string read_to_end(std::istream& in, std::uintmax_t expected, Problem& problem) {
+std::string read_to_end(std::istream& in, Problem& problem) {
   std::string text;
-  text.reserve(expected);
   char buffer[1u << 12u];  // on the stack, which may be small
   while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
     text.append(buffer, static_cast<std::size_t>(in.gcount()));
     if (text.size() > max_file_bytes) {
-      text = {};
-      problem.rule = "the file is larger than " + std::to_string(max_file_bytes >> 20u) + " MB";
+      problem.rule = too_large_text(max_file_bytes);
       return {};
     }
   }
@@ -193,24 +201,13 @@ std::string read_to_end(std::istream& in, std::uintmax_t expected, Problem& prob
 }  // namespace
 
 std::string read_whole_file(const std::filesystem::path& file, Problem& problem) {
-  if (file == "-") return read_to_end(std::cin, 0, problem);
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) {
-    problem.rule = "there is no such file";
+  if (file == "-") return read_to_end(std::cin, problem);
+  try {
+    return read_text(file, max_file_bytes);
+  } catch (const Unreadable& fault) {
+    problem.rule = fault.why();
     return {};
   }
-  if (std::filesystem::is_directory(status)) {
-    problem.rule = "this is a directory, not a file";
-    return {};
-  }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    problem.rule = "the file can not be opened";
-    return {};
-  }
-  const auto size = std::filesystem::file_size(file, error);
-  return read_to_end(in, error || size > max_file_bytes ? 0 : size + 1, problem);
 }
 
 std::string Problem::text() const {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "bough/io/json_value.hpp"
@@ -59,6 +60,7 @@ class Report {
   std::string summary(const JsonValue& v) const;
   /// Name, as written in the file, of the innermost named object that contains the value at a pointer; empty: none.
   std::string owner(const std::string& pointer) const;
+  const JsonValue* member(const JsonValue& object, const std::string& key) const;
   const JsonValue* locate(const std::string& pointer, std::string* reached, std::string* owner = nullptr) const;
 
   std::string_view text_;
@@ -66,6 +68,7 @@ class Report {
   const JsonValue* root_;
   const std::vector<std::string>& overrides_;
   const CopyOrigins* origins_;
+  mutable std::unordered_map<const JsonValue*, std::unordered_map<std::string_view, const JsonValue*>> members_;
   std::map<std::string, std::size_t> of_copies_;  ///< index in its list, by list, place and rule
   std::vector<Placed> problems_, warnings_;
   std::size_t left_out_ = 0, warnings_left_out_ = 0;

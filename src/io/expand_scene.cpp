@@ -253,7 +253,7 @@ class Expander {
       faults.front().hint = "the formula gives " + rounded_text(v.number, 12);
     for (CheckFault& f : faults)
       add({f.source, f.offset, f.length, std::move(f.pointer), std::move(f.rule), std::move(f.hint), around(), 0});
-    return faults.empty() ? std::optional<long>(static_cast<long>(v.number)) : std::nullopt;
+    return faults.empty() ? std::optional<long>(whole_number<long>(v.number)) : std::nullopt;
   }
 
   /// Calls each(index) for every copy, with the index set to its value; false if the group's numbers are at fault.

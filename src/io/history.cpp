@@ -1,8 +1,8 @@
 #include "bough/io/history.hpp"
 
-#include <fstream>
 #include <stdexcept>
 
+#include "bough/io/input_file.hpp"
 #include "bough/io/number_text.hpp"
 
 namespace bough::io {
@@ -121,12 +121,11 @@ void HistoryWriter::row(const records::HistoryRow& row) {
 }
 
 History read_history(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot read " + path.string());
+  InputFile file(path);
   History history;
   std::string line;
   std::size_t number = 0;
-  while (std::getline(file, line)) {
+  while (file.next_line(line)) {
     ++number;
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (number == 1) {
@@ -135,7 +134,6 @@ History read_history(const std::filesystem::path& path) {
       history.rows.push_back(read_row(path, number, line, history.header.columns.size()));
     }
   }
-  if (file.bad()) throw std::runtime_error("cannot read " + path.string());
   if (number == 0) fail_at(path, 1, "empty file");
   return history;
 }

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <iterator>
 
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/folder_lock.hpp"
+#include "bough/io/input_file.hpp"
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
+#include "bough/io/number_text.hpp"
 #include "bough/io/output_folder.hpp"
 
 namespace bough::io {
@@ -48,8 +49,8 @@ bool read_files(const JsonValue& list, std::vector<FileRecord>& files) {
     const JsonValue& item = list.items[k];
     FileRecord record{list.items.key(k)};
     if (!is_below(record.name)) return false;
-    if (const JsonValue* bytes = item.find("bytes"); bytes != nullptr && bytes->number >= 0.0)
-      record.bytes = static_cast<std::uint64_t>(bytes->number);
+    if (const JsonValue* bytes = item.find("bytes"); bytes != nullptr)
+      record.bytes = whole_number<std::uint64_t>(bytes->number);
     record.hash = text_at(item, "hash");
     files.push_back(std::move(record));
   }
@@ -80,7 +81,7 @@ class Listed {
   }
   /// Whether a file can be regarded as one that bough wrote.
   bool holds(const fs::directory_entry& entry, std::string name) const {
-    if (!entry.is_regular_file() || entry.is_symlink()) return false;
+    if (entry.is_symlink() || !entry.is_regular_file()) return false;
     if (name == manifest_name) return true;
     const bool is_partial = name.ends_with(partial_ending);
     if (is_partial) name.resize(name.size() - partial_ending.size());
@@ -103,7 +104,7 @@ class Listed {
 bool has_no_content(const fs::path& folder) {
   const std::string unfinished = std::string(manifest_name) + ".partial";
   return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(), [&](const fs::directory_entry& entry) {
-    return entry.is_regular_file() && !entry.is_symlink() && entry.path().filename() == unfinished;
+    return !entry.is_symlink() && entry.is_regular_file() && entry.path().filename() == unfinished;
   });
 }
 
@@ -198,11 +199,14 @@ std::optional<Manifest> read_manifest(const fs::path& folder) {
   const fs::path path = folder / manifest_name;
   std::error_code ignored;
   if (!fs::is_regular_file(fs::symlink_status(path, ignored))) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   std::vector<JsonFault> faults;
-  const std::optional<JsonValue> json = parse_json(text, source_file, faults);
-  if (!file || !json || !json->is(JsonKind::object) || text_at(*json, "format") != format_name) return std::nullopt;
+  std::optional<JsonValue> json;
+  try {
+    json = parse_json(read_text(path, max_file_bytes), source_file, faults);
+  } catch (const Unreadable&) {
+    return std::nullopt;
+  }
+  if (!json || !json->is(JsonKind::object) || text_at(*json, "format") != format_name) return std::nullopt;
   Manifest manifest{text_at(*json, "made_by")};
   for (const FolderState state : {FolderState::good, FolderState::failed})
     if (text_at(*json, "state") == text_of(state)) manifest.state = state;

@@ -70,7 +70,7 @@ class FrameConverter : private ValueConverter {
     if (const Value* time = sound(root, "time")) {
       study.start_time = time->find("start")->number;
       study.end_time = time->find("end")->number;
-      study.num_points = static_cast<int>(time->find("points")->number);
+      study.num_points = whole_number<int>(time->find("points")->number);
       if (study.end_time > study.start_time)
         check_laws();
       else

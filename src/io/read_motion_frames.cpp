@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 
+#include "bough/io/input_file.hpp"
 #include "bough/io/json_value.hpp"
 #include "bough/io/motion_frames.hpp"
+#include "bough/io/number_text.hpp"
 #include "bough/motion/so3.hpp"
 #include "frame_blocks.hpp"
 #include "motion_layout.hpp"
@@ -41,8 +42,8 @@ struct HeaderReader {
   /// A whole number in [low, high].
   int count(const JsonValue* v, int low, int high) {
     good = good && v != nullptr && v->is(JsonKind::number) && v->number >= low && v->number <= high &&
-           v->number == static_cast<double>(static_cast<int>(v->number));
-    return good ? static_cast<int>(v->number) : 0;
+           v->number == static_cast<double>(whole_number<int>(v->number));
+    return good ? whole_number<int>(v->number) : 0;
   }
   template <std::size_t N, class T>
   std::vector<std::array<T, N>> tuples(const JsonValue& of) {
@@ -216,18 +217,16 @@ void read_frame(const std::string& bytes, records::MotionFrame& f) {
 
 struct Block {
   FrameHead head;
-  std::uintmax_t begin = 0;  ///< of its packed bytes in the file
+  std::uint64_t begin = 0;  ///< of its packed bytes in the file
 };
 
 /// All complete frames; a frame that a crash cut off at the end is ignored.
-std::vector<Block> blocks_of(std::ifstream& file, std::uintmax_t begin, std::uintmax_t size) {
+std::vector<Block> blocks_of(const InputFile& file, std::uint64_t begin) {
   std::vector<Block> blocks;
   std::string head(frame_head_bytes, '\0');
-  while (begin + frame_head_bytes <= size) {
-    file.seekg(static_cast<std::streamoff>(begin));
-    if (!file.read(head.data(), static_cast<std::streamsize>(head.size()))) break;
+  while (file.read(begin, head.data(), head.size()) == head.size()) {
     const Block block{frame_head(head), begin + frame_head_bytes};
-    if (block.head.size > size - block.begin) break;
+    if (block.head.size > file.size() - std::min(block.begin, file.size())) break;
     blocks.push_back(block);
     begin = block.begin + block.head.size;
   }
@@ -253,17 +252,15 @@ std::vector<std::size_t> chosen_of(const std::vector<Block>& blocks, std::size_t
 }  // namespace
 
 Motion read_motion_file(const std::filesystem::path& path, std::size_t max_frames) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot read " + path.string());
+  InputFile file(path);
   std::string line;
-  std::getline(file, line);
+  (void)file.next_line(line);
   std::vector<JsonFault> faults;
   const std::optional<JsonValue> header = parse_json(line, source_file, faults);
   const JsonValue* format = header && faults.empty() && header->is(JsonKind::object) ? header->find("format") : nullptr;
   if (format == nullptr || !(format->text == motion_format))
     fail(path, std::string("not a file of the format '") + motion_format + "'");
-  const std::uintmax_t size = std::filesystem::file_size(path);
-  HeaderReader reader{*header, static_cast<int>(std::min<std::uintmax_t>(size / 12, 1 << 30))};
+  HeaderReader reader{*header, static_cast<int>(std::min<std::uint64_t>(file.size() / 12, 1 << 30))};
   Motion motion;
   records::MotionFrame start = read_header(reader, motion.parts);
   const std::size_t num_floats = frame_floats_of(start);
@@ -272,9 +269,9 @@ Motion read_motion_file(const std::filesystem::path& path, std::size_t max_frame
     fail(path, "the header does not say what the frames hold");
 
   std::string bytes(start_of(start).size(), '\0');
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) fail(path, "holds no frame");
+  if (file.read(line.size() + 1, bytes.data(), bytes.size()) < bytes.size()) fail(path, "holds no frame");
   read_start(bytes, start);
-  const std::vector<Block> blocks = blocks_of(file, line.size() + 1 + bytes.size(), size);
+  const std::vector<Block> blocks = blocks_of(file, line.size() + 1 + bytes.size());
   motion.num_recorded = blocks.size();
   if (blocks.empty()) fail(path, "holds no frame");
   double turned = 0.0;  // from the frame before those that are left out
@@ -283,9 +280,7 @@ Motion read_motion_file(const std::filesystem::path& path, std::size_t max_frame
     const Block& block = blocks[k];
     for (turned = 0.0; next <= k; ++next) turned += blocks[next].head.turn;
     bytes.resize(static_cast<std::size_t>(block.head.size));
-    file.clear();
-    file.seekg(static_cast<std::streamoff>(block.begin));
-    if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) fail(path, "cannot be read to its end");
+    if (file.read(block.begin, bytes.data(), bytes.size()) < bytes.size()) fail(path, "cannot be read to its end");
     const std::optional<std::string> floats = unpacked_frame(bytes, sizeof(float) * num_floats);
     if (!floats) fail(path, "a frame cannot be unpacked");
     motion.frames.push_back(start);

@@ -217,7 +217,7 @@ void Converter::body_inertia(const Value& v, const std::string& at, scene::Body&
   }
   const Value& s = *shape_value;
   const std::string& kind = s.find("kind")->text;
-  const int axis = static_cast<int>(number_or(s, "axis", 1.0));
+  const int axis = whole_number<int>(number_or(s, "axis", 1.0));
   scene::BodyShape shape;
   if (kind == "box") shape = scene::Box{vector(*s.find("size"))};
   if (kind == "cylinder") shape = scene::Cylinder{s.find("radius")->number, s.find("length")->number, axis};
@@ -269,9 +269,9 @@ void Converter::body(const Value& v, const std::string& at) {
 void Converter::choose_mesh(const Value& v, scene::Beam& b) {
   constexpr int nodes = 12, nodes_of_curve = 24;  // beside the first
   const Value *elements = v.find("elements"), *order = v.find("order");
-  b.order = order != nullptr ? static_cast<int>(order->number) : elements != nullptr ? 1 : 3;
+  b.order = order != nullptr ? whole_number<int>(order->number) : elements != nullptr ? 1 : 3;
   if (elements != nullptr) {
-    b.elements = static_cast<int>(elements->number);
+    b.elements = whole_number<int>(elements->number);
     return;
   }
   b.elements = (v.find("curve") != nullptr ? nodes_of_curve : nodes) / b.order;

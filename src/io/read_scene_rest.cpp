@@ -264,19 +264,19 @@ void Converter::settings() {
                            : library == "umfpack"   ? scene::SolverLibrary::umfpack
                                                     : scene::SolverLibrary::cholmod;
     scene.solver.iterate_interface = s->find("interface_solution")->text == "iterative";
-    scene.solver.leaf_size = static_cast<int>(number_or(*s, "leaf_size", 0.0));
-    scene.solver.depth = static_cast<int>(number_or(*s, "depth", -1.0));
+    scene.solver.leaf_size = whole_number<int>(number_or(*s, "leaf_size", 0.0));
+    scene.solver.depth = whole_number<int>(number_or(*s, "depth", -1.0));
     scene.solver.penalty_factor = number_or(*s, "penalty_factor", 1.0);
     if (scene.solver.form != scene::SolverForm::augmented && s->find("penalty_factor") != nullptr)
       fault("/solver/penalty_factor", "only the form \"augmented\" adds a penalty",
             "leave it out, or choose that form");
     scene.solver.tasks = s->find("tasks")->truth;
-    scene.solver.threads = static_cast<int>(s->find("threads")->number);
+    scene.solver.threads = whole_number<int>(s->find("threads")->number);
   }
   if (const Value* o = sound("output")) {
-    scene.output.stride = static_cast<int>(o->find("stride")->number);
+    scene.output.stride = whole_number<int>(o->find("stride")->number);
     scene.output.motion = o->find("motion")->truth;
-    if (const Value* n = o->find("motion_stride")) scene.output.motion_stride = static_cast<int>(n->number);
+    if (const Value* n = o->find("motion_stride")) scene.output.motion_stride = whole_number<int>(n->number);
     scene.output.checks = o->find("checks")->truth;
   }
   if (const Value* w = sound("without"))

@@ -23,7 +23,7 @@ void append(const std::vector<std::string>& from, std::vector<std::string>& to) 
 
 void StudyConverter::convert(const JsonValue& root) {
   spec.title = text_or(root, "title");
-  spec.repetitions = static_cast<int>(number_or(root, "repetitions", 3));
+  spec.repetitions = whole_number<int>(number_or(root, "repetitions", 3));
   spec.time_limit = number_or(root, "time_limit", 120.0);
   spec.sample_interval = number_or(root, "sample_interval", 0.0);
   if (const Value* wanted = sound(root, "wanted"))

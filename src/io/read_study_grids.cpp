@@ -86,7 +86,7 @@ std::optional<StudyChoice> StudyConverter::read_value(const std::string& name, c
       fault(at, "has to be a whole number of at least 1 and of at most 1024");
       return std::nullopt;
     }
-    choice.threads = static_cast<int>(v.number);
+    choice.threads = whole_number<int>(v.number);
     return choice;
   }
   const std::size_t before = faults.size();

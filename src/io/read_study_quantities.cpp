@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 #include "bough/io/columns.hpp"
 #include "bough/io/history.hpp"
+#include "bough/io/input_file.hpp"
 #include "bough/io/number_text.hpp"
 #include "study_converter.hpp"
 
@@ -22,9 +22,11 @@ struct NumberTable {
 
 NumberTable read_number_table(const std::filesystem::path& file) {
   NumberTable table;
-  std::ifstream in(file);
-  if (!in) {
-    table.trouble = "this file cannot be read";
+  std::istringstream in;
+  try {
+    in.str(read_text(file, max_file_bytes));
+  } catch (const Unreadable& fault) {
+    table.trouble = fault.why();
     return table;
   }
   std::string line;

@@ -131,9 +131,9 @@ class SweepConverter : public SceneConverter {
     for (std::size_t i = 0; i < variables.items.size(); ++i)
       design.variables.push_back(read_variable(variables.items[i], at + "/variables/" + std::to_string(i)));
     const bool is_morris = design.kind == SweepDesignKind::morris;
-    design.samples = static_cast<std::uint32_t>(number_or(v, is_morris ? "trajectories" : "samples", 0.0));
-    design.seed = static_cast<std::uint64_t>(number_or(v, "seed", 1.0));
-    design.levels = static_cast<int>(number_or(v, "levels", 4.0));
+    design.samples = whole_number<std::uint32_t>(number_or(v, is_morris ? "trajectories" : "samples", 0.0));
+    design.seed = whole_number<std::uint64_t>(number_or(v, "seed", 1.0));
+    design.levels = whole_number<int>(number_or(v, "levels", 4.0));
     if (design.levels % 2 != 0)
       fault(at + "/levels", "has to be even: steps of levels/2 then meet all levels equally often");
     const std::size_t most = design.kind == SweepDesignKind::sobol      ? 21

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bough/io/json_value.hpp"
+#include "bough/io/number_text.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "bough/scene/scene.hpp"

@@ -1,11 +1,10 @@
 #include "bough/io/run_directory.hpp"
 
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <system_error>
 
 #include "bough/io/columns.hpp"
+#include "bough/io/input_file.hpp"
 
 namespace bough::io {
 namespace {
@@ -149,8 +148,7 @@ std::optional<fs::path> RunDirectory::keep_rows_of_killed(const fs::path& direct
     const fs::path staging = OutputFolder::staging_of(directory);
     if (!lock.take(staging) || !read_manifest(staging)) return std::nullopt;
     const auto bytes_of = [&](const char* name) {
-      std::ifstream file(staging / name, std::ios::binary);
-      return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+      return fs::exists(staging / name) ? read_text(staging / name) : std::string();
     };
     rows = bytes_of("history.csv.partial");
     twin = bytes_of("history.npy.partial");

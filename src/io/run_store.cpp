@@ -6,13 +6,13 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
 #include <stdexcept>
 #include <system_error>
 
 #include "bough/io/columns.hpp"
 #include "bough/io/digest.hpp"
 #include "bough/io/history.hpp"
+#include "bough/io/input_file.hpp"
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
 #include "bough/io/output_folder.hpp"
@@ -92,32 +92,34 @@ StoredPlace RunStore::add(const std::vector<StoredFile>& files) {
   return {file_.filename().string(), static_cast<std::uint64_t>(offset)};
 }
 
-std::optional<std::vector<StoredFile>> read_stored(const fs::path& folder, const StoredPlace& place) {
-  std::ifstream in(folder / fs::path(place.store).filename(), std::ios::binary);
-  if (!in.seekg(static_cast<std::streamoff>(place.offset))) return std::nullopt;
+std::optional<std::vector<StoredFile>> read_stored(const fs::path& folder, const StoredPlace& place) try {
+  const InputFile in(folder / fs::path(place.store).filename());
   std::string head(max_head, '\0');
-  in.getline(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount() - 1)));
-  if (!in || !head.starts_with(record_begin)) return std::nullopt;
+  head.resize(in.read(place.offset, head.data(), head.size()));
+  const std::size_t end = head.find('\n');
+  if (end == std::string::npos || !head.starts_with(record_begin)) return std::nullopt;
+  head.resize(end);
   std::vector<JsonFault> faults;
   const std::optional<JsonValue> list =
       parse_json(std::string_view(head).substr(record_begin.size()), source_file, faults);
   if (!list || !faults.empty() || !list->is(JsonKind::array)) return std::nullopt;
-  std::error_code error;
-  const auto size = static_cast<double>(fs::file_size(folder / fs::path(place.store).filename(), error));
+  std::uint64_t offset = place.offset + end + 1;
   std::vector<StoredFile> files;
   for (const JsonValue& item : list->items) {
     if (!item.is(JsonKind::array) || item.items.size() != 3 || !item.items[0].is(JsonKind::string) ||
         !item.items[1].is(JsonKind::number) || !item.items[2].is(JsonKind::string))
       return std::nullopt;
     const double bytes = item.items[1].number;
-    if (error || !(bytes >= 0.0 && bytes <= size)) return std::nullopt;
-    files.push_back({item.items[0].text.str(), std::string(static_cast<std::size_t>(bytes), '\0')});
-    if (!in.read(files.back().text.data(), static_cast<std::streamsize>(files.back().text.size())) ||
-        digest_of(files.back().text) != item.items[2].text.str())
+    if (!(bytes >= 0.0 && bytes <= static_cast<double>(in.size()))) return std::nullopt;
+    std::string text(static_cast<std::size_t>(bytes), '\0');
+    if (in.read(offset, text.data(), text.size()) < text.size() || digest_of(text) != item.items[2].text.str())
       return std::nullopt;
+    offset += text.size();
+    files.push_back({item.items[0].text.str(), std::move(text)});
   }
   return files;
+} catch (const Unreadable&) {
+  return std::nullopt;
 }
 
 void sync_stores(const fs::path& folder) {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+
+#include "bough/io/input_file.hpp"
 
 namespace bough::io {
 namespace {
@@ -14,16 +15,12 @@ bool is_below(const fs::path& file, const fs::path& folder) {
   return end == folder.end() && at != file.end();
 }
 
-std::string too_large(std::size_t most_bytes) {
-  return "the file is larger than " + std::to_string(most_bytes >> 20u) + " MB";
-}
-
 }  // namespace
 
 OrFault<std::string> SceneFiles::read(const std::string& name, std::size_t most_bytes) {
   const auto wrong = [](std::string words) { return OrFault<std::string>(std::in_place_index<1>, std::move(words)); };
   if (const auto known = known_.find(name); known != known_.end()) {
-    if (known->second.size() > most_bytes) return wrong(too_large(most_bytes));
+    if (known->second.size() > most_bytes) return wrong(too_large_text(most_bytes));
     return OrFault<std::string>(std::in_place_index<0>, known->second);
   }
   if (folder_.empty()) return wrong("files can be named only by a scene that is read from a file itself");
@@ -33,14 +30,12 @@ OrFault<std::string> SceneFiles::read(const std::string& name, std::size_t most_
   const fs::path file = error ? fs::path() : fs::canonical(folder / name, error);
   if (error) return wrong("there is no such file beside the scene");
   if (!is_below(file, folder)) return wrong("the file does not lie below the folder of the scene");
-  if (!fs::is_regular_file(file, error)) return wrong("this is not a file");
-  const std::uintmax_t size = fs::file_size(file, error);
-  if (error || size > most_bytes) return wrong(too_large(most_bytes));
-  std::ifstream in(file, std::ios::binary);
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) return wrong("the file can not be read");
-  known_.emplace(name, bytes);
-  return OrFault<std::string>(std::in_place_index<0>, std::move(bytes));
+  try {
+    const std::string& bytes = known_.emplace(name, read_text(file, most_bytes)).first->second;
+    return OrFault<std::string>(std::in_place_index<0>, bytes);
+  } catch (const Unreadable& fault) {
+    return wrong(fault.why());
+  }
 }
 
 std::string SceneFiles::contents() const {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "bough/io/number_text.hpp"
 #include "read_analysis.hpp"
 #include "schema_parts.hpp"
 
@@ -25,7 +26,7 @@ struct KindOptions {
   std::vector<Option> options;
 };
 
-int whole(const Value& v) { return static_cast<int>(v.number); }
+int whole(const Value& v) { return whole_number<int>(v.number); }
 
 /// Sets a number where the object has one for this key.
 void read_number(const Value& object, const char* key, double& number) {

@@ -1,12 +1,11 @@
 #include "bough/io/summary.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "bough/io/columns.hpp"
 #include "bough/io/digest.hpp"
+#include "bough/io/input_file.hpp"
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
 #include "bough/io/number_text.hpp"
@@ -273,7 +272,7 @@ bool number_of(const JsonValue& value, double& number) {
 
 long count_of(const JsonValue& object, std::string_view key) {
   const JsonValue* value = object.find(key);
-  return value != nullptr && value->is(JsonKind::number) ? static_cast<long>(value->number) : 0;
+  return value != nullptr && value->is(JsonKind::number) ? whole_number<long>(value->number) : 0;
 }
 
 void read_expected(const JsonValue& list, SummaryFile& summary) {
@@ -363,9 +362,7 @@ std::string summary_text(const records::Summary& summary, std::string_view versi
 }
 
 SummaryFile read_summary(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot read " + path.string());
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::string text = read_text(path, max_file_bytes);
   std::vector<JsonFault> faults;
   const std::optional<JsonValue> json = parse_json(text, source_file, faults);
   if (!json || !faults.empty() || !json->is(JsonKind::object))
@@ -412,6 +409,21 @@ SummaryFile read_summary(const std::filesystem::path& path) {
   return summary;
 }
 
+namespace {
+
+/// Whether a file has the size that the manifest lists, if there is one, and the hash that the summary lists.
+bool is_as_listed(const std::filesystem::path& path, const std::optional<Manifest>& manifest,
+                  const FileRecord& listed) {
+  if (manifest) {
+    const auto at = std::find_if(manifest->files.begin(), manifest->files.end(),
+                                 [&](const FileRecord& file) { return file.name == listed.name; });
+    if (at != manifest->files.end() && !at->hash.empty() && InputFile(path).size() != at->bytes) return false;
+  }
+  return digest_of_file(path) == listed.hash;
+}
+
+}  // namespace
+
 SummaryFile read_whole_summary(const std::filesystem::path& directory, const std::vector<std::string>& names) {
   const std::string run_again = "; run the scene again, into a new folder";
   const auto is_there = [&](const std::string& name) { return std::filesystem::exists(directory / name); };
@@ -434,7 +446,7 @@ SummaryFile read_whole_summary(const std::filesystem::path& directory, const std
     if (listed == summary.files.end())
       throw std::runtime_error(what + " does not belong to the summary beside it, which does not list it" + run_again);
     if (!is_there(name)) throw std::runtime_error(what + " is missing: the summary beside it lists it" + run_again);
-    if (digest_of_file(directory / name) != listed->hash)
+    if (!is_as_listed(directory / name, manifest, *listed))
       throw std::runtime_error(what + " is not the file that was written with the summary beside it" + run_again);
   }
   return summary;

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -13,6 +14,7 @@
 
 #include "bough/io/read_scene.hpp"
 #include "bough/io/run_directory.hpp"
+#include "bough/study/collect.hpp"
 #include "cases/case_report.hpp"
 #include "cases/worker.hpp"
 
@@ -96,7 +98,8 @@ std::vector<BatchCase> cases_in(const fs::path& folder, const fs::path& out) {
   std::error_code error;
   std::vector<BatchCase> cases;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    if (it->path().extension() != ".json" || it->is_directory()) continue;
+    std::error_code unknown;  // of a link that leads nowhere, say: its case fails
+    if (it->path().extension() != ".json" || it->is_directory(unknown)) continue;
     const std::string name = io::name_of_file(it->path());
     cases.push_back({name, it->path(), out / name});
   }
@@ -104,6 +107,17 @@ std::vector<BatchCase> cases_in(const fs::path& folder, const fs::path& out) {
   if (cases.empty()) throw std::runtime_error("no scene (*.json) in " + folder.string());
   std::sort(cases.begin(), cases.end(), [](const BatchCase& a, const BatchCase& b) { return a.name < b.name; });
   return cases;
+}
+
+bool is_name_of_batch(std::string_view name) {
+  constexpr std::array tables = {"batch.csv", "batch.json", "batch.html", "cost.csv", "sensitivities.csv"};
+  constexpr std::array records = {cases_file, keys_file, journal_file, shard_file, io::manifest_name};
+  constexpr std::array endings = {".partial", ".failed", ".former", ".bough-new"};  // of what lies beside a case
+  const auto is_name = [&](const char* text) { return name == text; };
+  return std::any_of(tables.begin(), tables.end(), is_name) || std::any_of(records.begin(), records.end(), is_name) ||
+         std::any_of(endings.begin(), endings.end(), [&](const char* text) { return name.ends_with(text); }) ||
+         (name.starts_with("store_") && name.ends_with(".pack")) ||
+         (name.starts_with("shard_") && name.find("_of_") != std::string_view::npos);
 }
 
 namespace {

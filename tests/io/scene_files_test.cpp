@@ -116,7 +116,7 @@ TEST(SceneFiles, files_lie_below_the_scene_after_links_are_resolved) {
     EXPECT_NE(problem(name).find("does not lie below the folder of the scene"), std::string::npos) << problem(name);
   EXPECT_NE(problem((scratch / "outside.obj").string()).find("has to be relative"), std::string::npos);
   EXPECT_NE(problem("none.obj").find("there is no such file"), std::string::npos);
-  EXPECT_NE(problem("shapes").find("this is not a file"), std::string::npos) << problem("shapes");
+  EXPECT_NE(problem("shapes").find("this is a directory, not a file"), std::string::npos) << problem("shapes");
   EXPECT_NE(problem("none.obj").find("/bodies/0/looks/file"), std::string::npos);
   EXPECT_NE(first_problem(read_scene_text(body_scene(R"({"file": "cube.obj"})"), "s")).find("read from a file itself"),
             std::string::npos);

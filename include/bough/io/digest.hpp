@@ -30,7 +30,7 @@ class Digest {
 };
 
 std::string digest_of(std::string_view bytes);
-/// Of a whole file. Throws std::runtime_error where it cannot be read.
+/// Of a whole file. Throws Unreadable (input_file.hpp).
 std::string digest_of_file(const std::filesystem::path& path);
 
 }  // namespace bough::io

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bough/io/input_file.hpp"
 #include "bough/scene/scene.hpp"
 
 namespace bough::io {
@@ -40,7 +41,6 @@ struct SceneFile {
 };
 
 inline constexpr std::size_t max_problems = 200;           ///< further ones are counted in the last one
-inline constexpr std::size_t max_file_bytes = 32u << 20u;  ///< larger files are refused unread
 inline constexpr std::size_t max_json_depth = 64;          ///< of arrays and objects in each other
 inline constexpr std::size_t max_json_values = 2'000'000;  ///< numbers, strings, arrays and objects together
 

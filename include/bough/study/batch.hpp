@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bough/io/shared_text.hpp"
@@ -32,6 +33,9 @@ using CaseDone = std::function<void(const CaseResult&, std::size_t which, const 
 /// Every *.json file directly in a folder is a case, ordered by name; case NAME writes to out/NAME. Throws
 /// std::runtime_error where the folder cannot be read or has no such file.
 std::vector<BatchCase> cases_in(const std::filesystem::path& folder, const std::filesystem::path& out);
+
+/// Whether a batch writes a file or a folder of its own under this name into its folder, so that no case can have it.
+bool is_name_of_batch(std::string_view name);
 
 /// Runs all cases of a table that have no result yet, and returns the table with theirs; results do not depend on which
 /// finishes first. Worker processes run the cases, each worker one after the other, so that a case that crashes, hangs

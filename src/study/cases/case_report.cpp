@@ -136,8 +136,8 @@ bool report_of(std::string_view text, CaseReport& r) {
   r.accepted = count(0);
   r.rejected = count(1);
   r.newton_iterations = count(2);
-  r.expected_holds = static_cast<int>(count(3));
-  r.expected_fails = static_cast<int>(count(4));
+  r.expected_holds = io::whole_number<int>(counts->items[3].number);
+  r.expected_fails = io::whole_number<int>(counts->items[4].number);
   r.failing = root->find("failing")->text;
   for (const io::JsonValue& d : doubts->items) r.doubts.push_back(d.text);
   if (checks->items[0].is(io::JsonKind::number)) r.energy_error = checks->items[0].number;
@@ -153,7 +153,7 @@ bool report_of(std::string_view text, CaseReport& r) {
     for (const io::JsonValue& k : indicators->items) {
       const double least = r.indicators.empty() ? 0.0 : static_cast<double>(r.indicators.back()) + 1.0;
       if (k.number >= least && k.number < static_cast<double>(r.measures.size()))
-        r.indicators.push_back(static_cast<std::size_t>(k.number));
+        r.indicators.push_back(io::whole_number<std::size_t>(k.number));
     }
   return true;
 }

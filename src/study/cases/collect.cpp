@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string_view>
@@ -12,6 +10,7 @@
 #include "bough/io/csv_table.hpp"
 #include "bough/io/digest.hpp"
 #include "bough/io/history.hpp"
+#include "bough/io/input_file.hpp"
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
 #include "bough/io/number_text.hpp"
@@ -23,12 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* format_name = "bough shard 1";
-
-std::string text_of_file(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error("cannot read " + file.string());
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 io::CsvTable table_of_file(const fs::path& file, const std::string& text) {
   io::CsvTable table;
@@ -49,7 +42,7 @@ std::vector<std::pair<const char*, std::string ShardRecord::*>> texts_of_record(
 
 ShardRecord read_record(const fs::path& file) {
   std::vector<io::JsonFault> faults;
-  const std::string text = text_of_file(file);
+  const std::string text = io::read_text(file, io::max_file_bytes);
   const std::optional<io::JsonValue> root = io::parse_json(text, io::source_file, faults);
   const auto fail = [&]() -> ShardRecord { throw std::runtime_error(file.string() + " was not written by bough"); };
   if (!root || !faults.empty() || !root->is(io::JsonKind::object)) return fail();
@@ -101,7 +94,7 @@ std::string case_list(const std::vector<fs::path>& shards, const std::vector<fs:
     std::error_code ignored;
     const fs::path file = place / cases_file;
     if (!fs::exists(file, ignored)) continue;
-    std::string text = text_of_file(file);
+    std::string text = io::read_text(file);
     if (io::digest_of(text) == record.cases) return text;
   }
   throw std::runtime_error(
@@ -216,7 +209,7 @@ Collected collect_shards(const std::vector<fs::path>& folders) {
     if (at == all.machines.end()) at = all.machines.insert(at, machine);
     const auto number = static_cast<std::size_t>(at - all.machines.begin());
     const Records records = read_records(folder / journal_file);
-    const io::CsvTable keys = table_of_file(folder / keys_file, text_of_file(folder / keys_file));
+    const io::CsvTable keys = table_of_file(folder / keys_file, io::read_text(folder / keys_file));
     if (keys.columns.size() != 2) throw std::runtime_error((folder / keys_file).string() + " has not two columns");
     for (const std::vector<std::string>& row : keys.rows) {
       const auto place = place_of.find(row[0]);

@@ -9,13 +9,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
 
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/digest.hpp"
+#include "bough/io/input_file.hpp"
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
 #include "bough/io/manifest.hpp"
@@ -153,9 +153,9 @@ int open_mine(const std::filesystem::path& file, int flags) {
 void for_each_record(
     const std::filesystem::path& file,
     const std::function<void(const std::string& key, const CaseResult& result, std::string_view line)>& call) {
-  std::ifstream in(file, std::ios::binary);
-  for (std::string line; in && std::getline(in, line);) {
-    if (in.eof()) break;  // its end is missing
+  if (std::error_code ignored; !std::filesystem::exists(file, ignored)) return;
+  io::InputFile in(file);
+  for (std::string line; in.next_line(line) && in.ends_with_line_end();) {
     std::string key;
     CaseResult result;
     if (!read_record(line, key, result)) continue;

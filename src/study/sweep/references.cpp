@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/digest.hpp"
+#include "bough/io/input_file.hpp"
 #include "bough/io/manifest.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/read_scene.hpp"
@@ -24,6 +23,9 @@ const io::StudyReference* computed_reference(const io::StudySpec& spec, const io
 bool is_computed(const io::StudyGrid& grid, const io::StudyQuantity& quantity) {
   return grid.has_reference || !quantity.is_compared();
 }
+
+/// Follows the text that a kept reference is made from.
+std::string hash_line(const std::string& hash) { return "figures " + hash + "\n"; }
 
 /// Formula or table at the sample times.
 Samples given_values(const io::StudyQuantity& q, const std::vector<double>& times) {
@@ -55,14 +57,13 @@ std::string made_from(const io::StudySpec& spec, const std::vector<std::string>&
 std::optional<io::History> ReferenceCache::find(const std::string& from) const {
   if (folder_.empty()) return std::nullopt;
   const std::string name = io::digest_of(from);
-  std::ifstream in(folder_ / (name + ".txt"), std::ios::binary);
-  if (!in) return std::nullopt;
-  const std::string there((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (there != from) return std::nullopt;  // another reference with the same hash
+  const std::filesystem::path text = folder_ / (name + ".txt"), figures = folder_ / (name + ".csv");
   try {
-    return io::read_history(folder_ / (name + ".csv"));
+    // Otherwise it is another reference with the same hash, or its figures are not those that were written.
+    if (io::read_text(text, io::max_file_bytes) != from + hash_line(io::digest_of_file(figures))) return std::nullopt;
+    return io::read_history(figures);
   } catch (const std::runtime_error&) {
-    return std::nullopt;  // damaged: it is computed again
+    return std::nullopt;  // not there, or damaged: it is computed
   }
 }
 
@@ -75,7 +76,7 @@ void ReferenceCache::keep(const std::string& from, const io::History& history) c
     io::HistoryWriter writer(folder_ / (name + ".csv"), history.header);
     for (const records::HistoryRow& row : history.rows) writer.row(row);
     writer.commit();
-    io::write_file(folder_ / (name + ".txt"), from);
+    io::write_file(folder_ / (name + ".txt"), from + hash_line(writer.record().hash));
   } catch (const io::BeingWritten&) {  // by another study with the same cache, which computed the same reference
   }
 }
