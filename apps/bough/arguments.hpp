@@ -20,7 +20,7 @@ struct RunArguments {
   int threads = 0;                   ///< 0: as many as the machine has
   std::vector<std::string> overrides;
   double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
-  bool quiet = false;
+  bool quiet = false, replace = false;
   bool check_expected = false, strict = false;
 };
 struct ViewArguments {
@@ -40,7 +40,7 @@ struct CaseArguments {
   bool quiet = false, check_expected = false, strict = false;
   double stop_after = 0.0;  ///< of the whole batch [s]; 0: never
   int retries = 0;          ///< of a case that fails
-  bool resume = false;
+  bool resume = false, replace = false;
   std::string keep = "few";             ///< folders of cases: all; few: up to 200, of more a store; none: neither
   std::vector<std::string> keep_cases;  ///< that have folders in any case
   std::string shard;                    ///< "I/N", "auto", "auto/N"; empty: all cases
@@ -71,7 +71,7 @@ struct ProfileArguments {
   int threads = 0;
   std::vector<std::string> overrides;
   double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
-  bool quiet = false;
+  bool quiet = false, replace = false;
 };
 struct TuneArguments {
   std::filesystem::path scene, out;  ///< out empty: standard output only
@@ -124,7 +124,7 @@ struct StudyArguments {
   int threads = 0;                         ///< 0: as many as the machine has
   int repetitions = 0;                     ///< 0: as the study says
   double memory_limit = 0.0;               ///< of the runs side by side [bytes]; 0: what is available
-  bool quiet = false;
+  bool quiet = false, replace = false;
 };
 struct DoctorArguments {};
 struct StressArguments {
@@ -133,7 +133,7 @@ struct StressArguments {
   int threads = 0;
   std::string only;           ///< a case or a family; empty: all
   double memory_limit = 0.0;  ///< of the cases side by side [bytes]; 0: what is available
-  bool quiet = false;
+  bool quiet = false, replace = false;
 };
 
 /// One page per verb: cmd_<verb>.cpp. Each returns the exit status.

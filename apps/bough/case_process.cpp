@@ -14,6 +14,7 @@
 #include "bough/records/no_recorder.hpp"
 #include "bough/run/estimate.hpp"
 #include "bough/run/simulate.hpp"
+#include "bough/study/case_folders.hpp"
 #include "bough/version.hpp"
 #include "terminal.hpp"
 
@@ -131,9 +132,10 @@ int run_into_store(const study::BatchCase& which, const CaseSettings& settings, 
   const int status = status_of(summary);
   report.is_unwritten = true;  // until it is
   if (status == exit_failed && failed_folders.take())
-    report.directory = io::unpack_run(run.files(), io::FolderState::failed, which.directory);
+    report.directory = io::unpack_run(run.files(), io::FolderState::failed, which.directory, which.owner());
   else
-    report.stored = store_in(settings.out).add(run.files());
+    report.stored = store_in(settings.out).add(run.files(), which.key);
+  if (report.stored) (void)study::remove_case(which.directory);  // what is left there is of an attempt that was stopped
   report.is_unwritten = false;
   return status;
 }
@@ -150,7 +152,8 @@ int run_case_within(const study::BatchCase& which, const CaseSettings& settings,
   }
   report.cause = run::refusal(file.scene, settings.memory_limit);
   if (!report.cause.empty()) return exit_bad_input;
-  const io::RunOrigin origin = origin_of(which.scene, file, which.overrides);
+  io::RunOrigin origin = origin_of(which.scene, file, which.overrides);
+  origin.key = which.key;
   switch (settings.kept_as(which)) {
     case Kept::nothing:
       break;

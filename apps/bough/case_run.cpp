@@ -12,6 +12,7 @@
 #include "bough/io/read_study.hpp"
 #include "bough/io/run_store.hpp"
 #include "bough/run/estimate.hpp"
+#include "bough/study/case_folders.hpp"
 #include "bough/study/journal.hpp"
 #include "case_process.hpp"
 #include "memory_limit.hpp"
@@ -53,7 +54,7 @@ class CaseProgress {
 /// The page of what has ended so far, rewritten so rarely that it takes a small part of the time.
 class LivePage {
  public:
-  LivePage(const std::string& title, const io::OutputCollection& collection) : title_(title), collection_(collection) {}
+  LivePage(const std::string& title, io::OutputCollection& collection) : title_(title), collection_(collection) {}
 
   void take(const study::CaseTable& results, bool goes_on) {
     constexpr double least_seconds = 5.0, part = 0.02;
@@ -68,7 +69,7 @@ class LivePage {
   using Clock = std::chrono::steady_clock;
   static double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
   const std::string& title_;
-  const io::OutputCollection& collection_;
+  io::OutputCollection& collection_;
   Clock::time_point written_at_ = Clock::now();
   double took_ = 0.0;
 };
@@ -93,25 +94,38 @@ void sort_by_size(std::vector<std::size_t>& order, const study::CaseList& cases,
 namespace {
 
 /// Whether what is to be kept of a case that is done is there.
-bool has_results(const study::BatchCase& which, const study::CaseReport& report, const CaseSettings& settings) {
+bool has_results(const study::BatchCase& which, const study::CaseResult& done, const CaseSettings& settings) {
   const Kept kept = settings.kept_as(which);
+  const study::CaseReport& report = done.report;
   const bool left_none = report.directory.empty() && !report.stored;  // bad input, say
-  if (kept == Kept::nothing || left_none || std::filesystem::exists(which.directory / "summary.json")) return true;
-  return kept == Kept::store && report.stored && io::read_stored(settings.out, *report.stored);
+  if (kept == Kept::nothing || left_none) return true;
+  if (std::filesystem::exists(which.directory / "summary.json") && study::holds_case(which.directory, which.key, done))
+    return true;
+  return kept == Kept::store && report.stored && io::read_stored(settings.out, *report.stored, which.key);
 }
 
 /// Takes from the journal what is done, with its results where these are to be kept; returns which cases are left.
-std::vector<std::size_t> take_over(const std::vector<std::string>& keys, const study::Records& records,
-                                   const CaseSettings& settings, study::CaseTable& results) {
+std::vector<std::size_t> take_over(const study::Records& records, const CaseSettings& settings,
+                                   study::CaseTable& results) {
   std::vector<std::size_t> left;
   for (std::size_t i = 0; i < results.size(); ++i) {
-    const std::optional<study::CaseResult> done = records.find(keys[i]);
-    if (done && study::is_final(*done) && has_results(results.cases().at(i), done->report, settings))
-      results.set(i, *done);
-    else
+    const study::BatchCase which = results.cases().at(i);
+    std::optional<study::CaseResult> done = records.find(which.key);
+    if (!done || !study::is_final(*done) || !has_results(which, *done, settings)) {
       left.push_back(i);
+      continue;
+    }
+    if (!done->report.directory.empty()) done->report.directory = which.directory;  // its name may have changed since
+    results.set(i, *done);
   }
   return left;
+}
+
+/// Brings the folders of cases to the names that the cases have now.
+void settle_folders(const CaseSettings& settings, const study::CaseList& cases, const study::Records& records) {
+  for (const std::filesystem::path& folder : study::settle_case_folders(settings.out, cases, records))
+    std::cerr << "bough: " << folder.string()
+              << " holds what bough did not write, beside results of a case that the batch no longer has there\n";
 }
 
 /// Few scenes ask for threads: only those are read here that may.
@@ -168,8 +182,30 @@ std::string policy_of(const CaseArguments& arguments) {
   return arguments.retries > 0 ? "retries " + std::to_string(arguments.retries) : std::string();
 }
 
+io::Owner take_folder(const CaseSettings& settings, const std::string& verb, const std::filesystem::path& source) {
+  io::Owner owner{.verb = verb, .source = source, .replaces = settings.replace};
+  const std::filesystem::path journal = settings.out / study::journal_file;
+  std::size_t num_rows = 0;
+  study::for_each_record(journal, [&](const auto&, const auto&, const auto&) { ++num_rows; });
+  if (num_rows == 0 || settings.replace) return owner;
+  if (settings.resume) {
+    if (io::repair_manifest(
+            settings.out, owner,
+            {study::journal_file, study::keys_file, study::cases_file, study::shard_file, io::store_names, "batch.csv",
+             "batch.json", "batch.html", "cost.csv", "sensitivities.csv"}))
+      std::cerr << "bough: " << (settings.out / io::manifest_name).string()
+                << " was damaged, and is made anew, since the journal beside it has " << num_rows << " whole rows\n";
+    return owner;
+  }
+  io::require_ours(settings.out, owner);
+  throw io::OutputRefused(settings.out.string() + " holds results of " + std::to_string(num_rows) +
+                          (num_rows == 1 ? " case" : " cases") +
+                          " of this batch: --resume takes over those of cases that have not changed, and --replace "
+                          "begins anew");
+}
+
 study::CaseTable run_cases(const study::CaseList& cases, const CaseSettings& given, const CaseSource& source,
-                           const io::OutputCollection& collection) {
+                           io::OutputCollection& collection) {
   const auto start = std::chrono::steady_clock::now();
   CaseSettings settings = given;
   if (settings.threads <= 0) settings.threads = default_threads();
@@ -178,23 +214,22 @@ study::CaseTable run_cases(const study::CaseList& cases, const CaseSettings& giv
   settings.memory_limit /= static_cast<double>(side_by_side);
   collection.list(study::journal_file);
   study::Journal journal(settings.out / study::journal_file, settings.resume);
-  if (!settings.resume) io::remove_stores(settings.out);
   if (settings.kept == Kept::store) collection.list(io::store_names);
   if (!source.cases_table.empty())
     collection.write(study::cases_file, source.cases_table);  // the folder is this batch's now
-  const std::vector<std::string> keys = keys_of(cases, settings, source);
-  if (settings.shard_record) {
-    collection.write(study::keys_file, study::keys_csv(cases, keys));
-    collection.write(study::shard_file, study::shard_text(*settings.shard_record));
-  }
+  const auto keys = std::make_shared<const std::vector<std::string>>(keys_of(cases, settings, source));
+  collection.write(study::keys_file, study::keys_csv(cases, *keys));
+  if (settings.shard_record) collection.write(study::shard_file, study::shard_text(*settings.shard_record));
   const auto threads = std::make_shared<std::unordered_map<std::size_t, int>>();  // of cases that ask for more than one
-  study::CaseTable results(study::CaseList(cases.size(), [cases, threads](std::size_t i) {
+  study::CaseTable results(study::CaseList(cases.size(), [cases, threads, keys](std::size_t i) {
     study::BatchCase one = cases.at(i);
+    one.key = (*keys)[i];
     if (const auto at = threads->find(i); at != threads->end()) one.threads = at->second;
     return one;
   }));
   study::BatchOptions options;
-  options.order = take_over(keys, journal.records(), settings, results);
+  settle_folders(settings, results.cases(), journal.records());
+  options.order = take_over(journal.records(), settings, results);
   journal.forget_records();
   const std::size_t num_left = options.order.size();
   if (settings.resume && !settings.quiet)
@@ -218,7 +253,7 @@ study::CaseTable run_cases(const study::CaseList& cases, const CaseSettings& giv
         return run_case(which, settings, source, failed_folders, report, rows);
       },
       [&](const study::CaseResult& result, std::size_t which, const study::CaseTable& all) {
-        if (study::is_final(result)) journal.add(keys[which], result);
+        if (study::is_final(result)) journal.add((*keys)[which], result);
         progress.tell(result, ++done, num_left);
         page.take(all, done < num_left);
       },
@@ -231,8 +266,7 @@ study::CaseTable run_cases(const study::CaseList& cases, const CaseSettings& giv
 }
 
 int finish_cases(const study::CaseTable& results, const std::vector<study::MeasureSensitivity>& sensitivities,
-                 const CaseSettings& settings, const io::OutputCollection& collection,
-                 const study::Collected* collected) {
+                 const CaseSettings& settings, io::OutputCollection& collection, const study::Collected* collected) {
   std::function<std::string(std::size_t)> machine_of;
   if (collected != nullptr && !collected->machines.empty())
     machine_of = [collected](std::size_t i) { return collected->machine_of_case(i); };
@@ -252,6 +286,11 @@ int finish_cases(const study::CaseTable& results, const std::vector<study::Measu
     num_not_as_expected += r.report.expected_fails > 0 ? 1 : 0;
     num_stopped += r.status == study::CaseStatus::interrupted ? 1 : 0;
   }
+  const std::optional<std::filesystem::path> former = collection.publish(num_stopped > 0  ? io::FolderState::unfinished
+                                                                         : num_failed > 0 ? io::FolderState::failed
+                                                                                          : io::FolderState::good);
+  if (former)
+    std::cerr << "bough: the former results are kept in " << former->string() << ", since not all cases are done\n";
   if (!settings.quiet) {
     std::cout << results.size() << " cases, " << num_failed << " not done, " << num_doubted
               << " not to be trusted without a closer look, " << num_not_as_expected

@@ -32,11 +32,16 @@ struct CaseSource {
   std::string cases_table = {};                              ///< written as cases.csv; empty: it is not
 };
 
+/// The owner of the results of a batch in its folder, before anything there is touched. Rows that would be lost are
+/// refused: without --resume, which takes them over, or --replace, which deletes them. A damaged manifest beside a
+/// journal that is whole is made anew with --resume, which is told. Throws io::OutputRefused.
+io::Owner take_folder(const CaseSettings& settings, const std::string& verb, const std::filesystem::path& source);
+
 /// Runs the cases, large ones first where they are few enough to be looked at before.
 /// batch.html is rewritten from time to time. Every case that ends is written into journal.jsonl at once; cases that a
 /// journal taken over holds are not run again. Throws io::OutputRefused where another batch writes into the folder.
 study::CaseTable run_cases(const study::CaseList& cases, const CaseSettings& settings, const CaseSource& source,
-                           const io::OutputCollection& collection);
+                           io::OutputCollection& collection);
 
 /// What a retried case depends on besides its scene and what it changes there: of its key.
 std::string policy_of(const CaseArguments& arguments);
@@ -45,7 +50,7 @@ std::string policy_of(const CaseArguments& arguments);
 /// cost.csv and, where there are sensitivities, sensitivities.csv; tells what came of the cases and returns the exit
 /// status.
 int finish_cases(const study::CaseTable& results, const std::vector<study::MeasureSensitivity>& sensitivities,
-                 const CaseSettings& settings, const io::OutputCollection& collection,
+                 const CaseSettings& settings, io::OutputCollection& collection,
                  const study::Collected* collected = nullptr);
 
 /// Indices of sensitivity as tables, on standard output.

@@ -65,7 +65,8 @@ int batch(const BatchArguments& arguments) {
       refuse_other_list(arguments, "the scenes of " + arguments.folder.string() + " have other names");
   if (!arguments.job_engine.empty()) return export_jobs(whole, arguments, source);
   if (shard) take_shard(*shard, source, whole, settings);
-  const io::OutputCollection collection(settings.out, "batch", whole.inputs);
+  io::OutputCollection collection(settings.out, take_folder(settings, whole.verb, whole.source), whole.inputs,
+                                  io::Writers::one);
   return finish_cases(run_cases(whole.cases, settings, source, collection), {}, settings, collection);
 }
 

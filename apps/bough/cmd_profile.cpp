@@ -28,7 +28,8 @@ int profile(const ProfileArguments& arguments) {
   }
   const std::filesystem::path out =
       arguments.out.empty() ? std::filesystem::path(file.scene.name + ".profile") : arguments.out;
-  io::OutputFolder folder(out, "profile", {"profile.json", "trace.json", "profile.html"}, {arguments.scene});
+  const io::Owner owner{.verb = "profile", .source = arguments.scene, .replaces = arguments.replace};
+  io::OutputFolder folder(out, owner, {"profile.json", "trace.json", "profile.html"}, {arguments.scene});
   catch_interrupts();
   ProgressBar bar(arguments.quiet);
   study::ProfileOptions options;

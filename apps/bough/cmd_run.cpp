@@ -51,7 +51,8 @@ int run(const RunArguments& arguments) {
   if (!file.ok()) return exit_bad_input;
   if (refuse_for_memory(arguments.scene, file.scene, arguments.memory_limit)) return exit_bad_input;
   io::RunDirectory directory(arguments.out.empty() ? std::filesystem::path(file.scene.name + ".out") : arguments.out,
-                             std::string(version), origin_of(arguments.scene, file, arguments.overrides));
+                             std::string(version), origin_of(arguments.scene, file, arguments.overrides),
+                             arguments.replace);
   directory.open();
   const std::optional<records::Summary> summary = simulate_into(directory, file, arguments);
   if (!summary) return exit_failed;

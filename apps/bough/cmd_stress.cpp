@@ -20,7 +20,8 @@ int stress(const StressArguments& arguments) {
   const std::vector<std::string> problems = problems_in(options);
   for (const std::string& problem : problems) std::cerr << "bough: " << problem << "\n";
   if (!problems.empty()) return exit_bad_input;
-  io::OutputFolder folder(arguments.out, "stress", {"stress.json", "stress.html"});
+  io::OutputFolder folder(arguments.out, {.verb = "stress", .replaces = arguments.replace},
+                          {"stress.json", "stress.html"});
   catch_interrupts();
   const auto tell = [&](const stress::StressCase& c, std::size_t done, std::size_t all) {
     if (arguments.quiet && c.is_as_expected()) return;

@@ -99,10 +99,14 @@ study::SweepResult run_one(const io::StudySpec& spec, const StudyArguments& argu
   return study::run_sweep(spec, options);
 }
 
+io::Owner owner_of(const StudyArguments& arguments) {
+  return {.verb = "study", .source = arguments.spec, .replaces = arguments.replace};
+}
+
 /// Runs one study into its folder and tells of it; whether it is a success.
 bool run_into(const std::filesystem::path& directory, const io::StudySpec& spec, const StudyArguments& arguments,
               const std::vector<std::filesystem::path>& inputs, StudyPages& pages) {
-  io::OutputFolder folder(directory, "study", {"study.csv", "study.json", "study.html"}, inputs);
+  io::OutputFolder folder(directory, owner_of(arguments), {"study.csv", "study.json", "study.html"}, inputs);
   const study::SweepResult result = run_one(spec, arguments);
   folder.write("study.csv", study::sweep_csv(result));
   folder.write("study.json", study::sweep_json(result));
@@ -138,7 +142,7 @@ int study_scene(const StudyArguments& arguments) {
   if (is_refused) return exit_bad_input;
 
   std::optional<io::OutputCollection> collection;
-  if (is_folder) collection.emplace(arguments.out, "study", files);
+  if (is_folder) collection.emplace(arguments.out, owner_of(arguments), files);
   catch_interrupts();
   StudyPages pages;
   std::string index;

@@ -224,13 +224,15 @@ int sweep(const SweepArguments& arguments) {
   } else {
     source.cases_table = std::move(whole.list);
   }
-  if (const std::size_t others = arguments.only.empty() ? 0 : num_other_cases(settings.out, arguments.only);
+  if (const std::size_t others =
+          arguments.only.empty() || arguments.replace ? 0 : num_other_cases(settings.out, arguments.only);
       others > 0) {
     std::cerr << "bough: --case would replace the results of " << others << " other cases in " << settings.out.string()
               << ": give another folder with --out\n";
     return exit_bad_input;
   }
-  const io::OutputCollection collection(settings.out, "sweep", whole.inputs);
+  io::OutputCollection collection(settings.out, take_folder(settings, whole.verb, whole.source), whole.inputs,
+                                  io::Writers::one);
   const study::CaseTable results = run_cases(whole.cases, settings, source, collection);
   std::vector<study::MeasureSensitivity> sensitivities;  // of a shard they would be those of some rows
   if (!shard) sensitivities = study::sensitivities_of(file.spec, results);

@@ -7,6 +7,7 @@
 #include "bough/io/run_store.hpp"
 #include "bough/report/page.hpp"
 #include "bough/report/raster.hpp"
+#include "bough/study/case_folders.hpp"
 #include "bough/study/collect.hpp"
 
 namespace bough::app {
@@ -17,50 +18,48 @@ namespace {
 void write_page(const std::filesystem::path& path, const std::string& text) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (io::read_manifest(folder))
-    io::write_listed_file(folder, "view", path.filename().string(), text);
+    io::write_listed_file(folder, {"view"}, path.filename().string(), text);
   else
     io::write_file(path, text);
 }
 
-/// Makes the folder of a case that is stored; false where it is not. Of shards that lie in the folder all are looked
-/// at.
-bool unpack_case(const std::filesystem::path& batch, const std::string& which) {
-  std::vector<std::filesystem::path> places = {batch};
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(batch, ignored))
-    if (std::filesystem::exists(entry.path() / study::shard_file, ignored)) places.push_back(entry.path());
-  for (const std::filesystem::path& place : places) {
-    std::vector<study::CaseResult> found;
-    study::for_each_record(place / study::journal_file,
-                           [&](const std::string&, const study::CaseResult& result, std::string_view) {
-                             if (result.which.name == which && result.report.stored) found.push_back(result);
-                           });
-    for (; !found.empty(); found.pop_back()) {  // the last one first
-      const auto files = io::read_stored(place, *found.back().report.stored);
-      if (!files) continue;
-      const study::CaseStatus status = found.back().status;
+/// The folder of a case, which is made of its stored results where it has none. Throws std::runtime_error where there
+/// are no results of it.
+std::filesystem::path folder_of_case(const std::filesystem::path& batch, const std::string& which) {
+  const std::optional<study::FoundCase> found = study::find_case(batch, which);
+  if (!found)
+    throw std::runtime_error(batch.string() + " has no case " + which + ": " + (batch / study::keys_file).string() +
+                             " names those that it has");
+  std::filesystem::path folder = found->batch / std::filesystem::path(which).filename();
+  const std::optional<io::Manifest> there = io::read_manifest(folder);
+  const bool is_of_case = there && there->key == found->key;
+  if (is_of_case && (!found->result || study::holds_case(folder, found->key, *found->result))) return folder;
+  if (found->result && found->result->report.stored)
+    if (const auto files = io::read_stored(found->batch, *found->result->report.stored, found->key)) {
+      const study::CaseStatus status = found->result->status;
       const bool is_good = status == study::CaseStatus::ok || status == study::CaseStatus::figures_fail;
-      (void)io::unpack_run(*files, is_good ? io::FolderState::good : io::FolderState::failed, batch / which);
-      return true;
+      (void)study::remove_case(folder);
+      return io::unpack_run(*files, is_good ? io::FolderState::good : io::FolderState::failed, folder,
+                            {.verb = "run", .key = found->key});
     }
-  }
-  return false;
+  if (there && !is_of_case) throw std::runtime_error(study::why_not_of_its_case(folder));
+  throw std::runtime_error(batch.string() + " holds no results of the case " + which +
+                           ": they were not kept, and bough sweep FILE --case " + which +
+                           " --out ANOTHER runs it again");
 }
 
 }  // namespace
 
 int view(const ViewArguments& given) {
   ViewArguments arguments = given;
-  if (!given.which.empty()) {
-    const std::filesystem::path batch = arguments.directory;
-    arguments.directory /= std::filesystem::path(given.which).filename();
-    if (!std::filesystem::exists(arguments.directory) && !unpack_case(batch, given.which)) {
-      std::cerr << "bough: " << batch.string() << " holds no results of a case " << given.which
-                << ": either it has no such case (" << (batch / study::journal_file).string()
-                << " names them), or they were not kept, and bough sweep FILE --case " << given.which
-                << " --out ANOTHER runs it again\n";
-      return exit_bad_input;
-    }
+  try {
+    if (!given.which.empty()) arguments.directory = folder_of_case(given.directory, given.which);
+    for (const std::filesystem::path& folder : {arguments.directory, arguments.other})
+      if (const std::string why = folder.empty() ? "" : study::why_not_of_its_case(folder); !why.empty())
+        throw std::runtime_error(why);
+  } catch (const std::runtime_error& error) {
+    std::cerr << "bough: " << error.what() << "\n";
+    return exit_bad_input;
   }
   const std::filesystem::path page = arguments.out.empty() ? arguments.directory / "view.html" : arguments.out;
   std::vector<std::filesystem::path> inputs;

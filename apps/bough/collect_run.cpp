@@ -61,7 +61,7 @@ int collect(const BatchArguments& arguments) {
         sensitivities_of(all, arguments.folder.empty() ? std::filesystem::path(all.record.source) : arguments.folder);
   if (!arguments.quiet) print_sensitivities(sensitivities);
   const CaseSettings settings{arguments, all.record.title};
-  const io::OutputCollection collection(arguments.out, all.record.verb, {});
+  io::OutputCollection collection(arguments.out, {all.record.verb, all.record.source}, {}, io::Writers::one);
   collection.write_once(study::cases_file, all.list);
   return finish_cases(all.results, sensitivities, settings, collection, &all);
 }

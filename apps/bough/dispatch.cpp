@@ -68,6 +68,10 @@ void add_threads(CLI::App& verb, int& threads, const std::string& what) {
       ->check(CLI::Range(1, 1024));
 }
 
+CLI::Option* add_replace(CLI::App& verb, bool& replace) {
+  return verb.add_flag("--replace", replace, "Replace what the directory holds of another verb, scene or batch");
+}
+
 CLI::App& add_verb(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples) {
   CLI::App* verb = app.add_subcommand(name, what);
   verb->footer("Examples:\n" + examples);
@@ -82,6 +86,7 @@ void add_run(CLI::App& app, RunArguments& a, int& code) {
                             "Exit status: 0 done, 1 the run failed or was stopped, 2 bad input.");
   verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
   verb.add_option("--out", a.out, "Directory of the results (default: ./<scene>.out)")->type_name("DIR");
+  add_replace(verb, a.replace);
   add_threads(verb, a.threads, "Threads");
   add_overrides(verb, a.overrides);
   add_memory_limit(verb, a.memory_limit);
@@ -134,7 +139,8 @@ void add_case_options(CLI::App& verb, CaseArguments& a) {
       ->type_name("N")
       ->check(CLI::Range(0, 10));
   verb.add_flag("--resume", a.resume,
-                "Go on where a batch into this directory was stopped or killed: what is done stays");
+                "Go on where a batch into this directory was stopped or killed: what is done stays")
+      ->excludes(add_replace(verb, a.replace));
   verb.add_option("--stop-after", a.stop_after, "Stop the whole after so many seconds, so that --resume goes on")
       ->type_name("S")
       ->check(between(0.001, 1e9));
@@ -178,7 +184,7 @@ void add_batch(CLI::App& app, BatchArguments& a, int& code) {
       verb.add_option("--collect", a.shards,
                       "Make the tables of these shards, of batches and sweeps alike: folders of shards, or of many; "
                       "FOLDER: where the sweep lies now, if it was moved");
-  collect->type_name("DIR")->excludes("--shard")->excludes("--export")->excludes("--resume");
+  collect->type_name("DIR")->excludes("--shard")->excludes("--export")->excludes("--resume")->excludes("--replace");
   verb.callback([&a, &code, folder, collect] {
     if (folder->count() == 0 && collect->count() == 0) throw CLI::RequiredError("FOLDER or --collect");
     code = batch(a);
@@ -243,6 +249,7 @@ void add_study(CLI::App& app, StudyArguments& a, int& code) {
       "or it was stopped; 2 bad input. Runs that fail are results: they are listed with their cause.");
   verb.add_option("SPEC", a.spec, "Study (JSON), or a folder of them")->required();
   verb.add_option("--out", a.out, "Directory of the results")->type_name("DIR")->required();
+  add_replace(verb, a.replace);
   add_threads(verb, a.threads, "Runs at a time while errors are measured; timed runs go one at a time");
   verb.add_option("--repetitions", a.repetitions, "Timed runs of every choice (default: as the study says)")
       ->type_name("N")
@@ -262,6 +269,7 @@ void add_profile(CLI::App& app, ProfileArguments& a, int& code) {
                "Exit status: 0 done, 1 the run failed (what ran is shown), 2 bad input.");
   verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
   verb.add_option("--out", a.out, "Directory to write (default: ./<scene>.profile)")->type_name("DIR");
+  add_replace(verb, a.replace);
   verb.add_option("--steps", a.steps, "Most steps (default: 200)")->type_name("N")->check(CLI::Range(1L, 1000000000L));
   add_threads(verb, a.threads, "Threads");
   add_overrides(verb, a.overrides);
@@ -368,6 +376,7 @@ void add_stress(CLI::App& app, StressArguments& a, int& code) {
                "Writes stress.json and stress.html. Exit status: 0 every case ends as the table lists it, or better;\n"
                "1 one does not, or the table was stopped; 2 bad input.");
   verb.add_option("--out", a.out, "Directory of the report")->type_name("DIR")->required();
+  add_replace(verb, a.replace);
   verb.add_flag("--quick", a.quick, "Every family, long runs shortened and marked");
   add_threads(verb, a.threads, "Cases side by side");
   add_memory_limit(verb, a.memory_limit, "all cases side by side");

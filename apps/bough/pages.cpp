@@ -23,7 +23,7 @@ std::string write_stress_page(io::OutputFolder& folder, const std::string& name,
   return name;
 }
 
-void write_batch_page(const io::OutputCollection& folder, const study::CaseTable& results, const std::string& title,
+void write_batch_page(io::OutputCollection& folder, const study::CaseTable& results, const std::string& title,
                       const std::vector<study::MeasureSensitivity>& sensitivities, bool goes_on) {
   folder.write("batch.html", report::batch_page(results, title, sensitivities, goes_on));
 }
@@ -45,7 +45,7 @@ std::string StudyPages::write(io::OutputFolder& folder, const std::string& name,
   return name;
 }
 
-std::string StudyPages::write_index(const io::OutputCollection& folder, const std::string& name) const {
+std::string StudyPages::write_index(io::OutputCollection& folder, const std::string& name) const {
   folder.write(name, report::study_index_html(entries_->list));
   return name;
 }

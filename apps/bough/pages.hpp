@@ -30,7 +30,7 @@ std::string write_stress_page(io::OutputFolder& folder, const std::string& name,
                               const std::vector<stress::StressCase>& cases, const stress::StressOptions& options);
 
 /// The page of a batch or sweep, which may go on; does nothing without reports.
-void write_batch_page(const io::OutputCollection& folder, const study::CaseTable& results, const std::string& title,
+void write_batch_page(io::OutputCollection& folder, const study::CaseTable& results, const std::string& title,
                       const std::vector<study::MeasureSensitivity>& sensitivities, bool goes_on);
 
 /// The split of an acceleration as SVG. Precondition: can_draw.
@@ -46,7 +46,7 @@ class StudyPages {
   StudyPages& operator=(const StudyPages&) = delete;
 
   std::string write(io::OutputFolder& folder, const std::string& name, const study::SweepResult& result);
-  std::string write_index(const io::OutputCollection& folder,
+  std::string write_index(io::OutputCollection& folder,
                           const std::string& name) const;  ///< of all written so far
 
  private:

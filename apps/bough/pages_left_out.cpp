@@ -25,7 +25,7 @@ std::string write_stress_page(io::OutputFolder&, const std::string&, const std::
   return {};
 }
 
-void write_batch_page(const io::OutputCollection&, const study::CaseTable&, const std::string&,
+void write_batch_page(io::OutputCollection&, const study::CaseTable&, const std::string&,
                       const std::vector<study::MeasureSensitivity>&, bool) {}
 
 void write_split_picture(const std::filesystem::path&, const io::SplitTable&) {}
@@ -35,6 +35,6 @@ struct StudyPages::Entries {};
 StudyPages::StudyPages() = default;
 StudyPages::~StudyPages() = default;
 std::string StudyPages::write(io::OutputFolder&, const std::string&, const study::SweepResult&) { return {}; }
-std::string StudyPages::write_index(const io::OutputCollection&, const std::string&) const { return {}; }
+std::string StudyPages::write_index(io::OutputCollection&, const std::string&) const { return {}; }
 
 }  // namespace bough::app

@@ -65,7 +65,8 @@ std::string list_for_shards(const WholeBatch& batch, const CaseArguments& argume
   const fs::path file = arguments.out / study::cases_file;
   std::error_code ignored;
   if (!fs::exists(file, ignored))  // later shards take no offence at what engines write beside
-    io::OutputCollection(arguments.out, batch.verb, batch.inputs).write_once(study::cases_file, batch.list);
+    io::OutputCollection(arguments.out, {batch.verb, batch.source}, batch.inputs)
+        .write_once(study::cases_file, batch.list);
   return io::read_text(file);
 }
 
@@ -176,7 +177,7 @@ int export_jobs(const WholeBatch& batch, const CaseArguments& arguments, const C
   } catch (const std::runtime_error& error) {
     throw io::OutputRefused(error.what());
   }
-  const io::OutputCollection collection(arguments.out, batch.verb, batch.inputs);
+  io::OutputCollection collection(arguments.out, {batch.verb, batch.source}, batch.inputs);
   collection.write(file.name, file.text);
   std::cout << (arguments.out / file.name).string() << ": " << batch.cases.size() << " cases in " << spec.count
             << " tasks, of about " << io::seconds_text(seconds / static_cast<double>(spec.count) / spec.threads)

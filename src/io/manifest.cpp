@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "bough/io/atomic_file.hpp"
+#include "bough/io/digest.hpp"
 #include "bough/io/folder_lock.hpp"
 #include "bough/io/input_file.hpp"
 #include "bough/io/json_text.hpp"
@@ -87,7 +88,8 @@ class Listed {
     if (is_partial) name.resize(name.size() - partial_ending.size());
     if (is_partial && name == manifest_name) return true;
     const FileRecord* record = find(name);
-    return record != nullptr && (is_partial || record->hash.empty() || entry.file_size() == record->bytes);
+    if (record == nullptr || is_partial || record->hash.empty()) return record != nullptr;
+    return entry.file_size() == record->bytes && digest_of_file(entry.path()) == record->hash;
   }
   /// Whether a listed file lies below the folder.
   bool has_below(const std::string& folder) const {
@@ -172,6 +174,15 @@ void wait_for(FolderLock& lock, const fs::path& folder) {
 
 }  // namespace
 
+Manifest manifest_of(const Owner& owner, const fs::path& folder) {
+  Manifest manifest{owner.verb};
+  const bool is_file = !owner.source.empty() && owner.source != "-";
+  manifest.source =
+      is_file ? place_of(owner.source).lexically_relative(place_of(folder)).string() : owner.source.string();
+  manifest.key = owner.key;
+  return manifest;
+}
+
 std::string manifest_text(const Manifest& manifest) {
   JsonText json;
   json.begin_object();
@@ -179,6 +190,8 @@ std::string manifest_text(const Manifest& manifest) {
   json.member("made_by", std::string_view(manifest.made_by));
   json.member("state", std::string_view(text_of(manifest.state)));
   if (!manifest.instead_of.empty()) json.member("instead_of", std::string_view(manifest.instead_of));
+  if (!manifest.source.empty()) json.member("source", std::string_view(manifest.source));
+  if (!manifest.key.empty()) json.member("key", std::string_view(manifest.key));
   json.key("files");
   json.begin_object();
   for (const FileRecord& file : manifest.files) {
@@ -211,6 +224,8 @@ std::optional<Manifest> read_manifest(const fs::path& folder) {
   for (const FolderState state : {FolderState::good, FolderState::failed})
     if (text_at(*json, "state") == text_of(state)) manifest.state = state;
   manifest.instead_of = text_at(*json, "instead_of");
+  manifest.source = text_at(*json, "source");
+  manifest.key = text_at(*json, "key");
   const JsonValue* files = json->find("files");
   if (files == nullptr || !read_files(*files, manifest.files)) return std::nullopt;
   return manifest;
@@ -244,18 +259,83 @@ void remove_listed(const fs::path& folder) {
   fs::remove(folder);
 }
 
-void require_ours(const fs::path& folder) {
-  const fs::file_status there = fs::symlink_status(folder);
-  if (!fs::exists(there)) return;
-  if (!fs::is_directory(fs::status(folder)))
-    throw std::runtime_error("cannot write into " + folder.string() + ": not a directory");
-  const std::vector<std::string> foreign = foreign_entries(folder);
-  if (foreign.empty()) return;
+std::vector<fs::path> listed_folders(const fs::path& folder) {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    std::error_code unknown;
+    if (!it->is_symlink(unknown) && it->is_directory(unknown) && read_manifest(it->path()))
+      folders.push_back(it->path());
+  }
+  std::sort(folders.begin(), folders.end());
+  return folders;
+}
+
+void remove_whole_within(const fs::path& folder) {
+  for (const fs::path& one : listed_folders(folder)) remove_whole(one);
+  if (const std::optional<Manifest> manifest = read_manifest(folder)) remove_below(folder, "", Listed(*manifest));
+}
+
+void remove_whole(const fs::path& folder) {
+  remove_whole_within(folder);
+  remove_listed(folder);
+}
+
+namespace {
+
+[[noreturn]] void refuse_foreign(const fs::path& folder, const std::vector<std::string>& foreign) {
   std::string names;
   for (const std::string& name : foreign) names += (names.empty() ? "" : ", ") + name;
   throw OutputRefused("results go into a folder of their own, and " + folder.string() +
                       " holds what bough did not write, or what was changed since: " + names +
                       "; give --out a new name, or move these away");
+}
+
+/// Whether results in a folder are not those of an owner. The cases of a batch are all owned by it.
+bool is_of_another(const Manifest& there, const Manifest& wanted) {
+  if (there.made_by != wanted.made_by || there.key.empty() != wanted.key.empty()) return true;
+  return wanted.key.empty() && !there.source.empty() && !wanted.source.empty() && there.source != wanted.source;
+}
+
+std::string in_words(const Manifest& manifest, const fs::path& folder) {
+  if (!manifest.key.empty()) return "a case of a batch";
+  const bool is_file = !manifest.source.empty() && manifest.source != "-";
+  return "bough " + manifest.made_by +
+         (is_file ? " of " + place_of(folder / manifest.source).lexically_proximate(fs::current_path()).string() : "");
+}
+
+}  // namespace
+
+bool is_of_another(const fs::path& folder, const Owner& owner) {
+  const std::optional<Manifest> manifest = read_manifest(folder);
+  return manifest && is_of_another(*manifest, manifest_of(owner, folder));
+}
+
+void require_ours(const fs::path& folder, const Owner& owner) {
+  const fs::file_status there = fs::symlink_status(folder);
+  if (!fs::exists(there)) return;
+  if (!fs::is_directory(fs::status(folder)))
+    throw std::runtime_error("cannot write into " + folder.string() + ": not a directory");
+  const std::optional<Manifest> manifest = read_manifest(folder);
+  const std::vector<std::string> foreign = foreign_entries(folder, manifest, 3);
+  if (!foreign.empty()) refuse_foreign(folder, foreign);
+  const Manifest wanted = manifest_of(owner, folder);
+  if (owner.replaces) {
+    for (const fs::path& one : listed_folders(folder)) require_ours(one, owner);
+  } else if (manifest && is_of_another(*manifest, wanted)) {
+    throw OutputRefused(folder.string() + " holds results of " + in_words(*manifest, folder) + ", and " +
+                        in_words(wanted, folder) +
+                        " would replace them: give --out another name, or allow that with --replace");
+  }
+}
+
+bool repair_manifest(const fs::path& folder, const Owner& owner, const std::vector<std::string>& names) {
+  const fs::path path = folder / manifest_name;
+  if (read_manifest(folder) || fs::symlink_status(path).type() != fs::file_type::regular) return false;
+  Manifest manifest = manifest_of(owner, folder);
+  for (const std::string& name : names) manifest.files.push_back({name});
+  write_file(path, manifest_text(manifest));
+  return true;
 }
 
 void refuse_to_overwrite(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
@@ -282,14 +362,12 @@ void refuse_inputs_within(const std::vector<fs::path>& inputs, const fs::path& f
   }
 }
 
-namespace {
-
-/// list_file for a caller that holds the folder's lock.
-void list_in_locked(const fs::path& folder, const std::string& made_by, const std::string& name) {
+void list_file_in_locked(const fs::path& folder, const Owner& owner, const std::string& name) {
   std::optional<Manifest> present = read_manifest(folder);
   if (!present && fs::exists(fs::symlink_status(folder / manifest_name)))
     throw OutputRefused((folder / manifest_name).string() + " was not written by bough and would be replaced");
-  Manifest manifest = present ? std::move(*present) : Manifest{made_by, FolderState::good};
+  Manifest manifest = present ? std::move(*present) : manifest_of(owner, folder);
+  if (!present) manifest.state = FolderState::good;
   const auto at = std::find_if(manifest.files.begin(), manifest.files.end(),
                                [&](const FileRecord& record) { return record.name == name; });
   if (at != manifest.files.end() && at->hash.empty()) return;
@@ -300,27 +378,24 @@ void list_in_locked(const fs::path& folder, const std::string& made_by, const st
   write_file(folder / manifest_name, manifest_text(manifest), Durability::later);
 }
 
-}  // namespace
-
-void list_file(const fs::path& folder, const std::string& made_by, const std::string& name) {
+void list_file(const fs::path& folder, const Owner& owner, const std::string& name) {
   FolderLock lock;
   wait_for(lock, folder);
-  list_in_locked(folder, made_by, name);
+  list_file_in_locked(folder, owner, name);
 }
 
-void write_listed_file_once(const fs::path& folder, const std::string& made_by, const std::string& name,
+void write_listed_file_once(const fs::path& folder, const Owner& owner, const std::string& name,
                             std::string_view text) {
   if (fs::exists(folder / name)) return;
   FolderLock lock;
   wait_for(lock, folder);
   if (fs::exists(folder / name)) return;
-  list_in_locked(folder, made_by, name);
+  list_file_in_locked(folder, owner, name);
   write_file(folder / name, text);
 }
 
-void write_listed_file(const fs::path& folder, const std::string& made_by, const std::string& name,
-                       std::string_view text) {
-  list_file(folder, made_by, name);
+void write_listed_file(const fs::path& folder, const Owner& owner, const std::string& name, std::string_view text) {
+  list_file(folder, owner, name);
   write_file(folder / name, text);
 }
 

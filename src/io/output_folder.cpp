@@ -150,9 +150,9 @@ fs::path OutputFolder::staging_of(const fs::path& folder) {
   return staging_at(place, has_to_stay(place));
 }
 
-OutputFolder::OutputFolder(fs::path folder, std::string made_by, std::vector<std::string> names,
+OutputFolder::OutputFolder(fs::path folder, Owner owner, std::vector<std::string> names,
                            const std::vector<fs::path>& inputs)
-    : shown_(std::move(folder)), final_(resolved(shown_)), made_by_(std::move(made_by)), names_(std::move(names)) {
+    : shown_(std::move(folder)), final_(resolved(shown_)), owner_(std::move(owner)), names_(std::move(names)) {
   refuse_inputs_within(inputs, final_);
   std::error_code error;
   fs::create_directories(final_.parent_path(), error);
@@ -165,8 +165,9 @@ OutputFolder::OutputFolder(fs::path folder, std::string made_by, std::vector<std
   claim_staging();
   try {
     settle_former_staging();
+    require_ours(final_, owner_);  // a batch that runs there is told at once, not waited for
     lock_final();
-    require_ours(final_);
+    require_ours(final_, owner_);
     prepare_staging();
   } catch (...) {
     fs::remove(staging_, error);  // removes it only if it is empty
@@ -222,9 +223,9 @@ void OutputFolder::settle_former_staging() {
 
 /// Lists the files from the start, in case the run is killed.
 void OutputFolder::prepare_staging() {
-  Manifest manifest{made_by_};
-  for (const std::string& name : names_) manifest.files.push_back({name});
-  write_file(staging_ / manifest_name, manifest_text(manifest), Durability::later);
+  Manifest planned = manifest();
+  for (const std::string& name : names_) planned.files.push_back({name});
+  write_file(staging_ / manifest_name, manifest_text(planned), Durability::later);
 }
 
 void OutputFolder::write(const std::string& name, std::string_view text) {
@@ -276,19 +277,25 @@ std::string OutputFolder::obstacle(FolderState state) const {
   if (!is_folder(final_)) return {};
   const std::optional<Manifest> former = read_manifest(final_);
   if (!foreign_entries(final_, former, 1).empty()) return "holds files now that bough did not write";
-  const bool would_lose = former && former->state == FolderState::good && state != FolderState::good;
+  const bool is_same = former && former->key == owner_.key;
+  const bool would_lose = is_same && former->state == FolderState::good && state != FolderState::good;
   return would_lose ? "holds good results, which are kept" : "";
 }
+
+Manifest OutputFolder::manifest() const { return manifest_of(owner_, final_); }
 
 void OutputFolder::publish(FolderState state) {
   std::exception_ptr failure;
   try {
-    const std::string instead_of = obstacle(state).empty() ? "" : final_.filename().string();
-    AtomicFile manifest(staging_ / manifest_name);
-    manifest.write(manifest_text({made_by_, state, instead_of, files_}));
-    manifest.start_writing_out();
+    Manifest whole = manifest();
+    whole.state = state;
+    if (!obstacle(state).empty()) whole.instead_of = final_.filename().string();
+    whole.files = files_;
+    AtomicFile file(staging_ / manifest_name);
+    file.write(manifest_text(whole));
+    file.start_writing_out();
     make_durable();
-    manifest.commit(Durability::content);  // a manifest with sizes is committed only after the files that it lists
+    file.commit(Durability::content);  // a manifest with hashes is committed only after the files that it lists
     sync_directory(staging_);
   } catch (...) {  // the disk is full: the files remain listed as unfinished in the manifest made at the start
     failure = std::current_exception();
@@ -313,7 +320,8 @@ void OutputFolder::replace_final(const fs::path& target) {
     return;
   }
   if (is_in_place_ && target == final_) return move_entries(target);
-  const std::vector<std::string> guests = guests_of(target);
+  std::vector<std::string> guests = guests_of(target);
+  if (is_of_another(target, owner_)) guests.clear();  // they belong to the former results
   if (const int error = move_names(guests, target, staging_); error != 0) {
     (void)move_names(guests, staging_, target);
     fail(target, error);
@@ -323,7 +331,7 @@ void OutputFolder::replace_final(const fs::path& target) {
     return move_entries(target);
   }
   try {
-    remove_listed(staging_);         // the former results
+    remove_whole(staging_);          // the former results
   } catch (const std::exception&) {  // the new results are in place; the next writer removes the former ones
   }
 }
@@ -357,30 +365,117 @@ void OutputFolder::move_entries(const fs::path& target) {
   }
 }
 
-OutputCollection::OutputCollection(fs::path folder, std::string made_by, const std::vector<fs::path>& inputs)
-    : folder_(std::move(folder)), made_by_(std::move(made_by)) {
+namespace {
+
+/// Where the former results of a folder stand while new ones are written.
+fs::path former_of(const fs::path& folder) { return folder.parent_path() / (folder.filename().string() + ".former"); }
+
+bool is_former_of(const fs::path& former, const fs::path& folder) {
+  const std::optional<Manifest> manifest = read_manifest(former);
+  return manifest && manifest->instead_of == folder.filename().string();
+}
+
+}  // namespace
+
+OutputCollection::OutputCollection(fs::path folder, Owner owner, const std::vector<fs::path>& inputs, Writers writers)
+    : folder_(std::move(folder)), owner_(std::move(owner)), writers_(writers) {
   refuse_inputs_within(inputs, folder_);
-  require_ours(folder_);
+  require_ours(folder_, owner_);
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw std::runtime_error("cannot make the directory " + folder_.string() + ": " + error.message());
+  if (writers_ == Writers::one) claim();
 }
 
-void OutputCollection::write(const std::string& name, std::string_view text) const {
-  write_listed_file(folder_, made_by_, name, text);
+/// Locks the folder. A run that is to replace it holds its staging folder, which is taken first, therefore. Workers of a
+/// batch that was killed are waited for: one that has called fsync ends only when the disk has answered.
+void OutputCollection::claim() {
+  constexpr auto most = std::chrono::seconds(6);
+  const fs::path final = resolved(folder_), staging = OutputFolder::staging_of(folder_);
+  const bool may_stage = ::mkdir(staging.c_str(), 0777) == 0 || errno == EEXIST;
+  struct Staging {
+    ~Staging() {
+      if (std::error_code ignored; fs::is_empty(path, ignored)) fs::remove(path, ignored);
+    }
+    fs::path path;
+    FolderLock lock = {};
+  } run{may_stage ? staging : fs::path()};
+  if ((may_stage && !run.lock.wait(staging, most)) || !lock_.wait(final, most))
+    throw OutputRefused("another run or batch writes into " + folder_.string());
+  require_ours(folder_, owner_);
+  if (owner_.replaces) set_aside(final);
+  Manifest manifest = manifest_of(owner_, folder_);
+  if (const std::optional<Manifest> former = read_manifest(folder_))
+    for (const FileRecord& file : former->files) manifest.files.push_back({file.name});
+  write_file(folder_ / manifest_name, manifest_text(manifest), Durability::later);
 }
 
-void OutputCollection::write(const std::string& name, const TextWriter& writer) const {
-  list_file(folder_, made_by_, name);
+/// The former results go to <name>.former as a whole, and stay there until the new ones are complete; those of an
+/// attempt that was not completed are removed. Where the folder cannot be renamed, the former results are removed.
+void OutputCollection::set_aside(const fs::path& final) {
+  std::optional<Manifest> manifest = read_manifest(final);
+  const fs::path former = former_of(final);
+  if (is_folder(former) && !is_former_of(former, final))
+    throw OutputRefused("the results in " + folder_.string() + " would be kept as " + former.string() +
+                        " until the new ones are complete, and that is another folder: move it away");
+  if (!manifest) return;
+  if (is_folder(former) && manifest->state == FolderState::good) remove_whole(former);
+  if (is_folder(former) || has_to_stay(final)) return remove_whole_within(final);
+  manifest->instead_of = final.filename().string();
+  write_file(final / manifest_name, manifest_text(*manifest), Durability::later);
+  lock_.release();  // the lock of the staging folder keeps others away
+  if (const int error = rename_to(final, former); error != 0) fail(folder_, error);
+  fs::create_directories(final);
+  if (!lock_.take(final)) throw OutputRefused("another run or batch writes into " + folder_.string());
+}
+
+std::optional<fs::path> OutputCollection::publish(FolderState state) {
+  std::optional<Manifest> manifest = read_manifest(folder_);
+  if (!manifest) manifest = manifest_of(owner_, folder_);
+  manifest->state = state;
+  for (FileRecord& file : manifest->files)
+    for (const FileRecord& written : written_)
+      if (written.name == file.name) file = written;
+  write_file(folder_ / manifest_name, manifest_text(*manifest));
+  const fs::path final = resolved(folder_), former = former_of(final);
+  if (!is_folder(former) || !is_former_of(former, final)) return std::nullopt;
+  if (state == FolderState::good) remove_whole(former);
+  return is_folder(former) ? std::optional(former) : std::nullopt;
+}
+
+void OutputCollection::record(FileRecord record) {
+  const auto at = std::find_if(written_.begin(), written_.end(),
+                               [&](const FileRecord& former) { return former.name == record.name; });
+  if (at == written_.end())
+    written_.push_back(std::move(record));
+  else
+    *at = std::move(record);
+}
+
+void OutputCollection::write(const std::string& name, std::string_view text) {
+  write(name, [text](const TextSink& sink) { sink(text); });
+}
+
+void OutputCollection::write(const std::string& name, const TextWriter& writer) {
+  list(name);
   AtomicFile file(folder_ / name);
   writer([&file](std::string_view text) { file.write(text); });
   file.commit();
+  record({name, file.bytes_flushed(), file.digest()});
 }
 
-void OutputCollection::write_once(const std::string& name, std::string_view text) const {
-  write_listed_file_once(folder_, made_by_, name, text);
+void OutputCollection::write_once(const std::string& name, std::string_view text) {
+  if (writers_ == Writers::many)
+    write_listed_file_once(folder_, owner_, name, text);
+  else if (!fs::exists(folder_ / name))
+    write(name, text);
 }
 
-void OutputCollection::list(const std::string& name) const { list_file(folder_, made_by_, name); }
+void OutputCollection::list(const std::string& name) {
+  if (writers_ == Writers::many)
+    list_file(folder_, owner_, name);
+  else
+    list_file_in_locked(folder_, owner_, name);
+}
 
 }  // namespace bough::io

@@ -34,11 +34,13 @@ void make_directory(const fs::path& path) {
 
 }  // namespace
 
-RunDirectory::RunDirectory(fs::path directory, std::string version, RunOrigin origin)
-    : directory_(std::move(directory)), version_(std::move(version)), origin_(std::move(origin)) {}
+RunDirectory::RunDirectory(fs::path directory, std::string version, RunOrigin origin, bool replaces)
+    : directory_(std::move(directory)), version_(std::move(version)), origin_(std::move(origin)), replaces_(replaces) {}
 
 void RunDirectory::open() {
-  if (!folder_) folder_ = std::make_unique<OutputFolder>(directory_, "run", all_names, origin_.inputs());
+  if (folder_) return;
+  const Owner owner{"run", origin_.scene_file, origin_.key, replaces_};
+  folder_ = std::make_unique<OutputFolder>(directory_, owner, all_names, origin_.inputs());
 }
 
 void RunDirectory::begin(const records::HistoryHeader& header) {
@@ -141,7 +143,7 @@ void RunDirectory::end(const records::Summary& summary) {
   if (failure) std::rethrow_exception(failure);
 }
 
-std::optional<fs::path> RunDirectory::keep_rows_of_killed(const fs::path& directory) {
+std::optional<fs::path> RunDirectory::keep_rows_of_killed(const fs::path& directory, const Owner& owner) {
   std::string rows, twin;
   {
     FolderLock lock;
@@ -158,15 +160,15 @@ std::optional<fs::path> RunDirectory::keep_rows_of_killed(const fs::path& direct
   std::vector<std::string> columns;
   if (split_csv_line(std::string_view(rows).substr(0, rows.find('\n')), columns))
     twin = repaired_npy(std::move(twin), columns.size());
-  OutputFolder folder(directory, "run", all_names);
+  OutputFolder folder(directory, owner, all_names);
   folder.write("history.csv", rows);
   if (!twin.empty()) folder.write("history.npy", twin);
   folder.publish(FolderState::failed);
   return folder.folder();
 }
 
-fs::path RunDirectory::keep_rows(const fs::path& directory, std::string_view rows) {
-  OutputFolder folder(directory, "run", all_names);
+fs::path RunDirectory::keep_rows(const fs::path& directory, const Owner& owner, std::string_view rows) {
+  OutputFolder folder(directory, owner, all_names);
   folder.write("history.csv", rows);
   folder.publish(FolderState::failed);
   return folder.folder();

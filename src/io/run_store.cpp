@@ -39,13 +39,11 @@ bool is_store(const fs::path& file) {
   return name.starts_with("store_") && name.ends_with(".pack");
 }
 
-std::string head_of(const std::vector<StoredFile>& files) {
-  std::string head = std::string(record_begin) + "[";
-  for (const StoredFile& file : files) {
-    if (head.back() != '[') head += ',';
+std::string head_of(const std::vector<StoredFile>& files, const std::string& key) {
+  std::string head = std::string(record_begin) + "[" + json_string(key);
+  for (const StoredFile& file : files)
     head +=
-        "[" + json_string(file.name) + "," + std::to_string(file.text.size()) + ",\"" + digest_of(file.text) + "\"]";
-  }
+        ",[" + json_string(file.name) + "," + std::to_string(file.text.size()) + ",\"" + digest_of(file.text) + "\"]";
   return head + "]\n";
 }
 
@@ -78,10 +76,10 @@ RunStore::~RunStore() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-StoredPlace RunStore::add(const std::vector<StoredFile>& files) {
+StoredPlace RunStore::add(const std::vector<StoredFile>& files, const std::string& key) {
   const off_t offset = ::lseek(descriptor_, 0, SEEK_END);
   if (offset < 0) fail(file_, errno);
-  std::string record = head_of(files);
+  std::string record = head_of(files, key);
   for (const StoredFile& file : files) record += file.text;
   record += '\n';
   if (!write_all(descriptor_, record)) {
@@ -92,7 +90,8 @@ StoredPlace RunStore::add(const std::vector<StoredFile>& files) {
   return {file_.filename().string(), static_cast<std::uint64_t>(offset)};
 }
 
-std::optional<std::vector<StoredFile>> read_stored(const fs::path& folder, const StoredPlace& place) try {
+std::optional<std::vector<StoredFile>> read_stored(const fs::path& folder, const StoredPlace& place,
+                                                   const std::string& key) try {
   const InputFile in(folder / fs::path(place.store).filename());
   std::string head(max_head, '\0');
   head.resize(in.read(place.offset, head.data(), head.size()));
@@ -102,10 +101,13 @@ std::optional<std::vector<StoredFile>> read_stored(const fs::path& folder, const
   std::vector<JsonFault> faults;
   const std::optional<JsonValue> list =
       parse_json(std::string_view(head).substr(record_begin.size()), source_file, faults);
-  if (!list || !faults.empty() || !list->is(JsonKind::array)) return std::nullopt;
+  if (!list || !faults.empty() || !list->is(JsonKind::array) || list->items.size() == 0 ||
+      list->items[0].text.str() != key)
+    return std::nullopt;
   std::uint64_t offset = place.offset + end + 1;
   std::vector<StoredFile> files;
-  for (const JsonValue& item : list->items) {
+  for (std::size_t k = 1; k < list->items.size(); ++k) {
+    const JsonValue& item = list->items[k];
     if (!item.is(JsonKind::array) || item.items.size() != 3 || !item.items[0].is(JsonKind::string) ||
         !item.items[1].is(JsonKind::number) || !item.items[2].is(JsonKind::string))
       return std::nullopt;
@@ -128,21 +130,15 @@ void sync_stores(const fs::path& folder) {
   sync_directory(folder);
 }
 
-void remove_stores(const fs::path& folder) {
-  std::vector<fs::path> stores;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (is_store(entry.path())) stores.push_back(entry.path());
-  for (const fs::path& store : stores) fs::remove(store);
-}
-
-fs::path unpack_run(const std::vector<StoredFile>& files, FolderState state, const fs::path& folder) {
+fs::path unpack_run(const std::vector<StoredFile>& files, FolderState state, const fs::path& folder,
+                    const Owner& owner) {
   std::vector<std::string> names;
   for (const StoredFile& file : files) {
     names.push_back(fs::path(file.name).filename().string());
     if (names.back() != file.name || file.name.empty() || file.name.front() == '.')
       throw std::runtime_error("a stored file is called " + file.name);
   }
-  OutputFolder output(folder, "run", names);
+  OutputFolder output(folder, owner, names);
   for (const StoredFile& file : files) {
     if (file.name == "summary.json")
       output.write_index(file.name, file.text);

@@ -40,10 +40,10 @@ CaseStatus status_of(int code) {
 /// Describes the results that remain of a case that was killed. rows: of its history, if it has no folder.
 std::string kept_rows(const BatchCase& which, std::string_view rows) {
   try {
-    if (const std::optional<fs::path> kept = io::RunDirectory::keep_rows_of_killed(which.directory))
+    if (const std::optional<fs::path> kept = io::RunDirectory::keep_rows_of_killed(which.directory, which.owner()))
       return "its rows to the last flush are in " + kept->string();
     if (rows.empty()) return "there are no rows of it";
-    return "its rows are in " + io::RunDirectory::keep_rows(which.directory, rows).string();
+    return "its rows are in " + io::RunDirectory::keep_rows(which.directory, which.owner(), rows).string();
   } catch (const std::exception& error) {
     return std::string("its rows are lost: ") + error.what();
   }

@@ -101,7 +101,7 @@ for file in batch.csv batch.json batch.html cases.csv; do holds cmp sweep.one/$f
 holds grep -q ',N,l,g,lowest,reach$' sweep.one/batch.csv
 expect 0 'view.html' view sweep.one --case 07
 expect 2 'were not kept' view sweep.two --case 07
-expect 2 'no such case' view sweep.two --case 7
+expect 2 'has no case 7' view sweep.two --case 7
 expect 2 'holds results of bough sweep, not of one run: name the folder of a case' view sweep.two
 expect 2 'there is no folder sweep.none' view sweep.none
 # of many cases results are stored: failed and chosen ones have folders, and view takes others out of the store
@@ -147,7 +147,8 @@ holds cmp sweep.one/07/history.csv sweep.case/07/history.csv
 cp sweep.two/batch.csv whole.csv
 expect 2 'results of 24 other cases in sweep.two: give another folder' sweep "$sweeps/rod_chain_lengths.json" --out sweep.two --case 07
 holds cmp whole.csv sweep.two/batch.csv
-expect 0 '1 cases' sweep "$sweeps/rod_chain_lengths.json" --out sweep.case --case 07
+expect 2 '1 case of this batch: --resume' sweep "$sweeps/rod_chain_lengths.json" --out sweep.case --case 07
+expect 0 '1 cases' sweep "$sweeps/rod_chain_lengths.json" --out sweep.case --case 07 --replace
 expect 3 'are left' sweep "$sweeps/rod_chain_lengths.json" --out sweep.stopped --threads 1 --stop-after 0.02 --quiet
 expect 0 'cases are done' sweep "$sweeps/rod_chain_lengths.json" --out sweep.stopped --resume
 holds cmp sweep.one/batch.csv sweep.stopped/batch.csv
@@ -166,7 +167,7 @@ holds grep -q -- '--shard "${SLURM_ARRAY_TASK_ID}/1"$' sweep.jobs/job.slurm
 "$program" sweep "$sweeps/rod_chain_lengths.json" --out sweep.busy --threads 1 --set /analysis/step_size=1e-6 > /dev/null 2>&1 &
 busy=$!
 until test -e sweep.busy/journal.jsonl; do kill -0 $busy || break; sleep 0.1; done
-expect 2 'another batch writes' sweep "$sweeps/rod_chain_lengths.json" --out sweep.busy --quiet
+expect 2 'writes into sweep.busy' sweep "$sweeps/rod_chain_lengths.json" --out sweep.busy --quiet
 kill $busy
 wait $busy
 mkdir stiff

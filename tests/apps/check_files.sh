@@ -122,16 +122,16 @@ holds test -s outer/results/...json/history.csv
 # twice into one folder, also into the one that the process stands in
 expect 0 silence run short.json --out twice --quiet
 expect 0 silence view twice
-expect 0 silence run good.json --out twice --quiet
+expect 0 silence run good.json --out twice --replace --quiet
 holds cmp whole/history.csv twice/history.csv
 holds test ! -e twice/view.html
 holds test -z "$(ls -a | grep bough-new)"
-mkdir here && (cd here && "$program" run ../short.json --out . --quiet && "$program" run ../good.json --out . --quiet)
+mkdir here && (cd here && "$program" run ../short.json --out . --quiet && "$program" run ../good.json --out . --replace --quiet)
 holds test $? -eq 0
 holds cmp whole/history.csv here/history.csv
 
 # a run that fails keeps former good results
-expect 1 'kept' run fails.json --out twice
+expect 1 'kept' run fails.json --out twice --replace
 holds cmp whole/history.csv twice/history.csv
 holds grep -q '"status": "failed"' twice.failed/summary.json
 expect 1 'fails' run fails.json --out fresh
@@ -139,10 +139,10 @@ holds grep -q '"status": "failed"' fresh/summary.json
 
 # a second run into a folder that is being written
 pendulum 100000 > long.json
-"$program" run long.json --out twice --set /output/motion=false --quiet 2> /dev/null &
+"$program" run long.json --out twice --replace --set /output/motion=false --quiet 2> /dev/null &
 process=$!
 until [ -e .twice.bough-new/manifest.json ]; do kill -0 $process || break; sleep 0.1; done
-expect 1 'another run is writing it' run good.json --out twice
+expect 1 'another run is writing it' run good.json --out twice --replace
 kill -HUP $process
 wait $process
 holds test $? -eq 1
@@ -168,7 +168,7 @@ figure='{"quantity": "bob.x", "time": 0.5, "value": 7, "tolerance": 1}'
 sed "s|\"sensors\"|\"expected\": [$figure], \"sensors\"|" good.json > scenes/figure.json
 expect 0 'figure: figures_fail: bob.x' batch scenes --out judged
 holds grep -q '^figure,figures_fail,"*bob.x' judged/batch.csv
-expect 1 'figures_fail' batch scenes --out judged --check-expected --quiet
+expect 1 'figures_fail' batch scenes --out judged --replace --check-expected --quiet
 mkdir slow && cp long.json slow/
 expect 1 'long: timed_out: stopped by the time limit of 2 s' batch slow --out limited.batch --time-limit 2 \
   --set /output/motion=false

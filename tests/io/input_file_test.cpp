@@ -65,7 +65,7 @@ TEST_F(NoFiles, every_reader_says_at_once_what_they_are) {
       ASSERT_EQ(problems.size(), 1u) << name;
       EXPECT_NE(problems[0].text().find(why), std::string::npos) << problems[0].text();
     }
-    EXPECT_FALSE(read_stored(scratch_.path(), {name, 0}));
+    EXPECT_FALSE(read_stored(scratch_.path(), {name, 0}, "key"));
   }
   records::HistoryHeader header;
   EXPECT_THROW(read_columns(scratch_ / "pipe", header), std::runtime_error);
@@ -86,7 +86,7 @@ TEST_F(NoFiles, a_large_file_is_refused_by_its_size_and_not_read) {
 
 TEST_F(NoFiles, a_result_of_another_size_is_no_result_before_its_hash_is_computed) {
   const fs::path run = scratch_ / "run";
-  OutputFolder folder(run, "run", {"history.csv", "summary.json"});
+  OutputFolder folder(run, {"run"}, {"history.csv", "summary.json"});
   const std::string rows = "time,step_size,iterations\n0,0,0\n";
   folder.write("history.csv", rows);
   folder.write_index("summary.json",

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "bough/io/atomic_file.hpp"
+#include "bough/io/digest.hpp"
 #include "write_samples.hpp"
 
 namespace bough::io {
@@ -23,7 +24,7 @@ class Output : public testing::Test {
  protected:
   /// Writes `text` to a.txt and, where told so, a second file.
   void write(const std::string& text, FolderState state = FolderState::good, bool with_frame = false) {
-    OutputFolder folder(out_, "test", names);
+    OutputFolder folder(out_, {"test"}, names);
     folder.write("a.txt", text);
     if (with_frame) {
       fs::create_directory(folder.staging() / "part");
@@ -56,7 +57,7 @@ class Output : public testing::Test {
 
 TEST_F(Output, stands_under_its_name_when_it_is_whole_and_leaves_nothing_beside) {
   {
-    OutputFolder folder(out_, "test", names);
+    OutputFolder folder(out_, {"test"}, names);
     folder.write("a.txt", "new");
     EXPECT_FALSE(fs::exists(out_));
     folder.publish(FolderState::good);
@@ -68,7 +69,7 @@ TEST_F(Output, stands_under_its_name_when_it_is_whole_and_leaves_nothing_beside)
 TEST_F(Output, former_results_stand_whole_until_the_new_ones_do) {
   write("first", FolderState::good, true);
   {
-    OutputFolder folder(out_, "test", names);
+    OutputFolder folder(out_, {"test"}, names);
     folder.write("a.txt", "second");
     EXPECT_EQ(text_of(out_ / "a.txt"), "first");
     EXPECT_EQ(text_of(out_ / "part/frame_0"), "frame of first");
@@ -81,7 +82,7 @@ TEST_F(Output, former_results_stand_whole_until_the_new_ones_do) {
 
 TEST_F(Output, given_up_leaves_the_former_results_and_nothing_else) {
   write("first");
-  { OutputFolder(out_, "test", names).write("a.txt", "second"); }
+  { OutputFolder(out_, {"test"}, names).write("a.txt", "second"); }
   EXPECT_EQ(text_of(out_ / "a.txt"), "first");
   EXPECT_EQ(names_in(scratch_.path()), std::vector<std::string>{"out"});
 }
@@ -122,7 +123,7 @@ TEST_F(Output, is_refused_where_something_is_not_boughs) {
     const std::string former = text_of(path);
     fs::create_directories(path.parent_path());
     write_file(path, "mine, and longer than before");
-    EXPECT_THROW(OutputFolder(out_, "test", names), OutputRefused) << foreign;
+    EXPECT_THROW(OutputFolder(out_, {"test"}, names), OutputRefused) << foreign;
     EXPECT_EQ(text_of(path), "mine, and longer than before");
     EXPECT_EQ(text_of(out_ / "part/frame_0"), "frame of first");
     if (former.empty())
@@ -137,7 +138,7 @@ TEST_F(Output, is_refused_where_something_is_not_boughs) {
 
 TEST_F(Output, stands_beside_where_files_of_others_appear_while_it_is_written) {
   write("first");
-  OutputFolder folder(out_, "test", names);
+  OutputFolder folder(out_, {"test"}, names);
   folder.write("a.txt", "second");
   write_file(out_ / "notes.txt", "mine");
   folder.publish(FolderState::good);
@@ -153,7 +154,7 @@ TEST_F(Output, follows_no_link_out_of_its_folder) {
   write("first", FolderState::good, true);
   fs::remove_all(out_ / "part");
   fs::create_directory_symlink(scratch_ / "precious", out_ / "part");
-  EXPECT_THROW(OutputFolder(out_, "test", names), OutputRefused);
+  EXPECT_THROW(OutputFolder(out_, {"test"}, names), OutputRefused);
   EXPECT_EQ(text_of(scratch_ / "precious/frame_0"), "mine");
 }
 
@@ -168,9 +169,9 @@ TEST_F(Output, goes_where_a_link_of_the_users_leads) {
 
 TEST_F(Output, of_a_second_writer_is_refused_and_does_not_disturb_the_first) {
   write("former", FolderState::good, true);
-  OutputFolder first(out_, "test", names);
+  OutputFolder first(out_, {"test"}, names);
   first.write("a.txt", "first");
-  EXPECT_THROW(OutputFolder(out_, "test", names), std::runtime_error);
+  EXPECT_THROW(OutputFolder(out_, {"test"}, names), std::runtime_error);
   EXPECT_EQ(text_of(out_ / "part/frame_0"), "frame of former");
   first.publish(FolderState::good);
   EXPECT_EQ(text_of(out_ / "a.txt"), "first");
@@ -179,7 +180,7 @@ TEST_F(Output, of_a_second_writer_is_refused_and_does_not_disturb_the_first) {
 TEST_F(Output, takes_over_what_a_killed_writer_left) {
   write("former");
   run_and_kill([&] {
-    auto* folder = new OutputFolder(out_, "test", names);
+    auto* folder = new OutputFolder(out_, {"test"}, names);
     folder->write("a.txt", "lost");
     AtomicFile half(folder->staging() / "b.txt");
     half.write("half");
@@ -195,7 +196,7 @@ TEST_F(Output, takes_over_what_a_killed_writer_left) {
 TEST_F(Output, never_takes_away_a_folder_that_only_has_the_name_of_a_writers) {
   fs::create_directory(scratch_ / ".out.bough-new");
   write_file(scratch_ / ".out.bough-new/a.txt", "mine");
-  EXPECT_THROW(OutputFolder(out_, "test", names), OutputRefused);
+  EXPECT_THROW(OutputFolder(out_, {"test"}, names), OutputRefused);
   EXPECT_EQ(text_of(scratch_ / ".out.bough-new/a.txt"), "mine");
 }
 
@@ -224,7 +225,7 @@ TEST_F(Output, puts_back_what_a_kill_left_half_way) {
   write_file(out_ / "a.txt", "new");
   write_file(staging / "manifest.json",
              manifest_text({"test", FolderState::good, "", {{"a.txt", 3, digest_of("new")}}}));
-  OutputFolder folder(out_, "test", names);
+  OutputFolder folder(out_, {"test"}, names);
   EXPECT_EQ(text_of(out_ / "a.txt"), "former");
   EXPECT_EQ(text_of(out_ / "part/frame_0"), "frame of former");
   folder.write("a.txt", "newer");
@@ -242,7 +243,7 @@ TEST_F(Output, puts_back_what_a_kill_left_half_way_within_it) {
   write_file(staging / "a.txt", "new");
   write_file(staging / "manifest.json",
              manifest_text({"test", FolderState::good, "", {{"a.txt", 3, digest_of("new")}}}));
-  { const OutputFolder folder(out_, "test", names); }
+  { const OutputFolder folder(out_, {"test"}, names); }
   EXPECT_EQ(text_of(out_ / "a.txt"), "former");
   EXPECT_EQ(names_in(out_), (std::vector<std::string>{"a.txt", "manifest.json"}));
 }
@@ -261,7 +262,7 @@ TEST_F(Output, waits_for_a_writer_that_is_about_to_end) {
   ASSERT_EQ(pipe(ready), 0);
   const pid_t child = fork();
   if (child == 0) {
-    OutputFolder folder(out_, "test", names);
+    OutputFolder folder(out_, {"test"}, names);
     folder.write("a.txt", "unfinished");
     (void)::write(ready[1], "", 1);
     usleep(200'000);
@@ -285,7 +286,7 @@ TEST_F(Output, a_line_waits_for_others_that_add_theirs_however_long_it_takes) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1500));
     held.release();
   });
-  EXPECT_NO_THROW(list_file(out_, "test", "a.txt"));
+  EXPECT_NO_THROW(list_file(out_, {"test"}, "a.txt"));
   slow.join();
 }
 
@@ -298,7 +299,7 @@ TEST_F(Output, lines_of_many_threads_all_stand_in_the_manifest) {
     threads.emplace_back([&, t] {
       try {
         fs::create_directories(out_);
-        for (int k = 0; k < lines; ++k) list_file(out_, "test", std::to_string(t) + "." + std::to_string(k));
+        for (int k = 0; k < lines; ++k) list_file(out_, {"test"}, std::to_string(t) + "." + std::to_string(k));
       } catch (const std::exception&) {
         ++failures;
       }
@@ -314,7 +315,7 @@ TEST_F(Output, a_run_begins_while_lines_are_added_and_ends_the_waiting_of_none) 
   std::atomic<int> failures{0};
   std::thread lines([&] {
     while (!done) try {
-        list_file(out_, "view", "page.html");
+        list_file(out_, {"view"}, "page.html");
       } catch (const std::exception&) {
         ++failures;
       }
@@ -327,14 +328,14 @@ TEST_F(Output, a_run_begins_while_lines_are_added_and_ends_the_waiting_of_none) 
 
 TEST_F(Output, a_run_that_holds_the_folder_is_not_waited_for) {
   write("first");
-  const OutputFolder run(out_, "test", names);
-  EXPECT_THROW(list_file(out_, "view", "page.html"), std::runtime_error);
+  const OutputFolder run(out_, {"test"}, names);
+  EXPECT_THROW(list_file(out_, {"view"}, "page.html"), std::runtime_error);
 }
 
 TEST_F(Output, takes_folders_of_other_results_along) {
   write("first");
   {
-    OutputFolder guest(out_ / "guest", "test", names);
+    OutputFolder guest(out_ / "guest", {"test"}, names);
     guest.write("a.txt", "guest");
     guest.publish(FolderState::good);
   }
@@ -345,16 +346,16 @@ TEST_F(Output, takes_folders_of_other_results_along) {
 
 TEST_F(Output, is_refused_where_it_would_replace_what_is_read) {
   write("first");
-  EXPECT_THROW(OutputFolder(out_, "test", names, {out_ / "a.txt"}), OutputRefused);
+  EXPECT_THROW(OutputFolder(out_, {"test"}, names, {out_ / "a.txt"}), OutputRefused);
   fs::create_symlink(out_ / "a.txt", scratch_ / "link");
-  EXPECT_THROW(OutputFolder(out_, "test", names, {scratch_ / "link"}), OutputRefused);
-  EXPECT_NO_THROW(OutputFolder(out_, "test", names, {scratch_ / "other.json"}));
+  EXPECT_THROW(OutputFolder(out_, {"test"}, names, {scratch_ / "link"}), OutputRefused);
+  EXPECT_NO_THROW(OutputFolder(out_, {"test"}, names, {scratch_ / "other.json"}));
 }
 
 TEST_F(Output, file_that_is_listed_later_goes_with_the_folder) {
   write("first");
-  write_listed_file(out_, "view", "page.html", "a page");
-  write_listed_file(out_, "view", "page.html", "another page");
+  write_listed_file(out_, {"view"}, "page.html", "a page");
+  write_listed_file(out_, {"view"}, "page.html", "another page");
   EXPECT_TRUE(foreign_entries(out_).empty());
   write("second");
   EXPECT_FALSE(fs::exists(out_ / "page.html"));
@@ -362,15 +363,15 @@ TEST_F(Output, file_that_is_listed_later_goes_with_the_folder) {
 
 TEST_F(Output, collections_hold_folders_and_files_of_their_own) {
   {
-    const OutputCollection all(out_, "test");
-    OutputFolder part(out_ / "part", "test", names);
+    OutputCollection all(out_, {"test"});
+    OutputFolder part(out_ / "part", {"test"}, names);
     part.write("a.txt", "x");
     part.publish(FolderState::good);
     all.write("table.csv", "1");
   }
-  EXPECT_NO_THROW(OutputCollection(out_, "test").write("table.csv", "longer"));
+  EXPECT_NO_THROW(OutputCollection(out_, {"test"}).write("table.csv", "longer"));
   write_file(out_ / "mine", "mine");
-  EXPECT_THROW(OutputCollection(out_, "test"), OutputRefused);
+  EXPECT_THROW(OutputCollection(out_, {"test"}), OutputRefused);
 }
 
 /// A case of a batch whose writer was killed before its first manifest had its name.
@@ -378,8 +379,8 @@ TEST_F(Output, collections_take_over_folders_that_were_just_begun) {
   const fs::path begun = OutputFolder::staging_of(out_ / "part");
   fs::create_directories(begun);
   write_file(begun / "manifest.json.partial", "{");
-  EXPECT_NO_THROW(OutputCollection(out_, "test"));
-  OutputFolder part(out_ / "part", "test", names);
+  EXPECT_NO_THROW(OutputCollection(out_, {"test"}));
+  OutputFolder part(out_ / "part", {"test"}, names);
   part.write("a.txt", "x");
   part.publish(FolderState::good);
   EXPECT_EQ(text_of(out_ / "part/a.txt"), "x");
@@ -387,7 +388,89 @@ TEST_F(Output, collections_take_over_folders_that_were_just_begun) {
   fs::create_directories(out_ / "mine");
   write_file(out_ / "mine/manifest.json.partial", "{");
   write_file(out_ / "mine/thesis.txt", "mine");
-  EXPECT_THROW(OutputCollection(out_, "test"), OutputRefused);
+  EXPECT_THROW(OutputCollection(out_, {"test"}), OutputRefused);
+}
+
+TEST_F(Output, of_another_owner_is_replaced_only_where_that_is_asked_for) {
+  const auto owner = [&](const std::string& verb, const char* source, const char* key = "") {
+    return Owner{.verb = verb, .source = scratch_ / source, .key = key};
+  };
+  const auto write_as = [&](const Owner& who, const std::string& text) {
+    OutputFolder folder(out_, who, names);
+    folder.write("a.txt", text);
+    folder.publish(FolderState::good);
+  };
+  write_as(owner("run", "one.json"), "first");
+  for (const Owner& other : {owner("run", "two.json"), owner("profile", "one.json"), owner("run", "one.json", "key")}) {
+    EXPECT_THROW(write_as(other, "other"), OutputRefused);
+    EXPECT_THROW(OutputCollection(out_, other, {}, Writers::one), OutputRefused);
+  }
+  EXPECT_EQ(text_of(out_ / "a.txt"), "first");
+  write_as(owner("run", "one.json"), "second");
+  EXPECT_EQ(text_of(out_ / "a.txt"), "second") << "of the same owner";
+  Owner replacing = owner("run", "two.json");
+  replacing.replaces = true;
+  write_as(replacing, "third");
+  EXPECT_EQ(text_of(out_ / "a.txt"), "third");
+  fs::rename(scratch_ / "out", scratch_ / "elsewhere");
+  EXPECT_EQ(read_manifest(scratch_ / "elsewhere").value().source, "../two.json") << "they may be moved together";
+}
+
+TEST_F(Output, that_was_changed_without_changing_its_size_is_foreign) {
+  write("first");
+  std::ofstream(out_ / "a.txt") << "mine!";
+  EXPECT_EQ(foreign_entries(out_), std::vector<std::string>{"a.txt"});
+  EXPECT_THROW(write("second"), OutputRefused);
+  EXPECT_EQ(text_of(out_ / "a.txt"), "mine!");
+}
+
+TEST_F(Output, of_many_results_has_one_writer_who_locks_out_runs_and_is_locked_out_by_them) {
+  const auto is_refused = [](const auto& make) {
+    try {
+      make();
+      return false;
+    } catch (const std::runtime_error&) {
+      return true;
+    }
+  };
+  const auto in_another_process = [&](const auto& make) {
+    const pid_t child = fork();
+    if (child == 0) _exit(is_refused(make) ? 1 : 0);
+    int status = -1;
+    waitpid(child, &status, 0);
+    return WEXITSTATUS(status) == 0;
+  };
+  const auto collect = [&] { OutputCollection(out_, {"test"}, {}, Writers::one); };
+  {
+    const OutputFolder run(out_, {"test"}, names);
+    EXPECT_FALSE(in_another_process(collect));
+  }
+  {
+    const OutputCollection all(out_, {"test"}, {}, Writers::one);
+    EXPECT_FALSE(in_another_process(collect));
+  }
+  EXPECT_TRUE(in_another_process(collect));
+}
+
+TEST_F(Output, of_many_results_is_replaced_as_a_whole_when_the_new_ones_are_good) {
+  const fs::path former = scratch_ / "out.former";
+  const auto table_of = [&](const std::string& text, bool replaces, FolderState state) {
+    OutputCollection all(out_, {.verb = "test", .replaces = replaces}, {}, Writers::one);
+    EXPECT_EQ(read_manifest(out_).value().state, FolderState::unfinished);
+    all.write("table.csv", text);
+    OutputFolder part(out_ / "1", {.verb = "run", .key = "key of " + text}, names);
+    part.write("a.txt", text);
+    part.publish(FolderState::good);
+    return all.publish(state);
+  };
+  EXPECT_FALSE(table_of("first", false, FolderState::good));
+  EXPECT_EQ(read_manifest(out_).value().files.at(0).hash, digest_of("first"));
+  EXPECT_EQ(table_of("second", true, FolderState::failed), former);
+  EXPECT_EQ(text_of(former / "table.csv") + text_of(former / "1/a.txt"), "firstfirst");
+  EXPECT_EQ(text_of(out_ / "table.csv") + text_of(out_ / "1/a.txt"), "secondsecond");
+  EXPECT_FALSE(table_of("third", true, FolderState::good));
+  EXPECT_EQ(text_of(out_ / "table.csv") + text_of(out_ / "1/a.txt"), "thirdthird");
+  EXPECT_EQ(names_in(scratch_.path()), std::vector<std::string>{"out"});
 }
 
 TEST(Overwriting, is_told_by_whatever_path) {

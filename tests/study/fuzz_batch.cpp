@@ -121,7 +121,7 @@ void read_journal(std::string_view text) {
 void read_store(std::string_view text) {
   write(scratch() / "store_000.pack", text);
   for (const std::uint64_t offset : {std::uint64_t{0}, std::uint64_t{text.size() / 2}})
-    if (const auto files = io::read_stored(scratch(), {"store_000.pack", offset}))
+    if (const auto files = io::read_stored(scratch(), {"store_000.pack", offset}, ""))
       for (const io::StoredFile& file : *files) require(file.text.size() <= text.size());
 }
 

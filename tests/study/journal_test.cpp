@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "bough/io/atomic_file.hpp"
-#include "bough/io/manifest.hpp"
 #include "support/batch_texts.hpp"
 #include "support/scratch_directory.hpp"
 
@@ -101,11 +100,6 @@ TEST_F(Journals, of_two_records_with_one_key_the_last_counts) {
   std::vector<std::string> names;
   for_each_record(file(), [&](const auto&, const CaseResult& r, const auto&) { names.push_back(r.which.name); });
   EXPECT_EQ(names, (std::vector<std::string>{"1", "2"}));
-}
-
-TEST_F(Journals, two_batches_do_not_write_one_journal) {
-  const Journal journal(file(), false);
-  EXPECT_THROW(Journal(file(), true), io::OutputRefused);
 }
 
 TEST_F(Journals, a_new_batch_starts_empty) {

@@ -2,6 +2,7 @@
 /// A folder of results that is replaced as a whole: it is written under another name beside its own, and takes its
 /// place when it is complete.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 namespace bough::io {
 
 /// Rules, for every verb that writes a folder:
+///   - Results of another owner (`require_ours`) are replaced only if the owner says so.
 ///   - One process at a time writes it; another is refused.
 ///  - What exists and is foreign (`foreign_entries`), or is read by the same process, is never touched: the
 ///      constructor refuses.
@@ -27,7 +29,7 @@ namespace bough::io {
 class OutputFolder {
  public:
   /// names: the files that may be written below `staging()`, as in a manifest.
-  OutputFolder(std::filesystem::path folder, std::string made_by, std::vector<std::string> names,
+  OutputFolder(std::filesystem::path folder, Owner owner, std::vector<std::string> names,
                const std::vector<std::filesystem::path>& inputs = {});
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -65,9 +67,10 @@ class OutputFolder {
   std::filesystem::path place_beside() const;
   std::string taken_by_another() const;
   std::string obstacle(FolderState state) const;
+  Manifest manifest() const;
 
   std::filesystem::path shown_, final_, staging_;
-  std::string made_by_;
+  Owner owner_;
   std::vector<std::string> names_;
   std::vector<FileRecord> files_;
   std::string index_;         ///< file that describes all others
@@ -77,23 +80,41 @@ class OutputFolder {
   FolderLock lock_, final_lock_;
 };
 
+/// Who writes into a folder of many results at the same time.
+enum class Writers {
+  one,   ///< the folder is locked until the collection, and all processes forked in the meantime, have ended
+  many,  ///< it is locked for each line of its manifest
+};
+
 /// Files of a folder with many results (a batch, several studies), each of which is replaced by itself. Makes the
 /// folder, and refuses as OutputFolder does.
 class OutputCollection {
  public:
-  OutputCollection(std::filesystem::path folder, std::string made_by,
-                   const std::vector<std::filesystem::path>& inputs = {});
-  void write(const std::string& name, std::string_view text) const;
+  OutputCollection(std::filesystem::path folder, Owner owner, const std::vector<std::filesystem::path>& inputs = {},
+                   Writers writers = Writers::many);
+  void write(const std::string& name, std::string_view text);
   /// A long text, which is never in memory as a whole.
-  void write(const std::string& name, const TextWriter& writer) const;
+  void write(const std::string& name, const TextWriter& writer);
   /// For files that many processes write with equal content: written only if it does not exist yet.
-  void write_once(const std::string& name, std::string_view text) const;
+  void write_once(const std::string& name, std::string_view text);
   /// Lists a file that another process writes there.
-  void list(const std::string& name) const;
+  void list(const std::string& name);
+  /// Gives the folder its state, and the files written so far their hashes, with which they were written together. For
+  /// one writer: until then the folder is unfinished. If they are good, the former results are removed that
+  /// `Owner::replaces` allowed to replace: they stand as a whole under <name>.former until then.
+  /// Returns where they are kept, if they are.
+  std::optional<std::filesystem::path> publish(FolderState state);
 
  private:
+  void claim();
+  void set_aside(const std::filesystem::path& final);
+  void record(FileRecord record);
+
   std::filesystem::path folder_;
-  std::string made_by_;
+  Owner owner_;
+  Writers writers_;
+  std::vector<FileRecord> written_;  ///< by write(), with hashes
+  FolderLock lock_;
 };
 
 }  // namespace bough::io

@@ -27,7 +27,8 @@ namespace bough::io {
 class RunDirectory final : public records::Recorder {
  public:
   /// Nothing is touched before `open` or `begin`: a run that does not start leaves no directory.
-  RunDirectory(std::filesystem::path directory, std::string version, RunOrigin origin = {});
+  /// replaces: whether results of another owner may be replaced (manifest.hpp).
+  RunDirectory(std::filesystem::path directory, std::string version, RunOrigin origin = {}, bool replaces = false);
 
   /// Takes the directory for this run, or refuses it if it has foreign entries (OutputFolder). `begin` calls it if it
   /// was not called before.
@@ -60,9 +61,11 @@ class RunDirectory final : public records::Recorder {
 
   /// Commits the rows that a killed run had passed to the system: a history without a summary, marked as failed.
   /// Returns its place; none if there are no rows, or if the run is still going on. Throws as OutputFolder. keep_rows:
-  /// for rows in memory, preceded by the head of the history.
-  static std::optional<std::filesystem::path> keep_rows_of_killed(const std::filesystem::path& directory);
-  static std::filesystem::path keep_rows(const std::filesystem::path& directory, std::string_view rows);
+  /// for rows in memory, preceded by the head of the history. owner: of the results.
+  static std::optional<std::filesystem::path> keep_rows_of_killed(const std::filesystem::path& directory,
+                                                                  const Owner& owner);
+  static std::filesystem::path keep_rows(const std::filesystem::path& directory, const Owner& owner,
+                                         std::string_view rows);
 
  private:
   /// Gives the files their names; returns the first failure.
@@ -72,6 +75,7 @@ class RunDirectory final : public records::Recorder {
   std::filesystem::path directory_;
   std::string version_;
   RunOrigin origin_;
+  bool replaces_;
   std::unique_ptr<OutputFolder> folder_;
   std::unique_ptr<HistoryWriter> history_;
   std::unique_ptr<NpyHistoryWriter> twin_;

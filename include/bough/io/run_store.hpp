@@ -26,8 +26,8 @@ struct StoredPlace {
   std::uint64_t offset = 0;
 };
 
-/// A store is written by one process and may be read by any. A record is a line of JSON with names, sizes and hashes of
-/// files, followed by their bytes. An incomplete record, cut off by a kill, is recognised, and no position refers to
+/// A store is written by one process and may be read by any. A record is a line of JSON with the key of a case and names,
+/// sizes and hashes of files, followed by their bytes. An incomplete record, cut off by a kill, is recognised, and no position refers to
 /// it.
 class RunStore {
  public:
@@ -40,7 +40,7 @@ class RunStore {
 
   /// Returns when the system has the record; the disk gets it later. Throws std::runtime_error if it cannot be written;
   /// the store is then unchanged.
-  StoredPlace add(const std::vector<StoredFile>& files);
+  StoredPlace add(const std::vector<StoredFile>& files, const std::string& key);
 
  private:
   std::filesystem::path file_;
@@ -49,16 +49,16 @@ class RunStore {
 
 inline constexpr const char* store_names = "store_*";  ///< as a manifest lists them
 
-/// The files of a record; none if it is incomplete.
-std::optional<std::vector<StoredFile>> read_stored(const std::filesystem::path& folder, const StoredPlace& place);
-/// Waits until all stores of a folder are on disk. remove_stores: removes them.
+/// The files of a record; none if it is incomplete, or of another case than that of the key.
+std::optional<std::vector<StoredFile>> read_stored(const std::filesystem::path& folder, const StoredPlace& place,
+                                                   const std::string& key);
+/// Waits until all stores of a folder are on disk.
 void sync_stores(const std::filesystem::path& folder);
-void remove_stores(const std::filesystem::path& folder);
 
 /// Writes stored files as the folder of a run, as if it had been run there. Throws as OutputFolder. Returns their
 /// place: beside `folder` if that has good results and these are of a failed run.
 std::filesystem::path unpack_run(const std::vector<StoredFile>& files, FolderState state,
-                                 const std::filesystem::path& folder);
+                                 const std::filesystem::path& folder, const Owner& owner);
 
 /// Records a run in memory, to be stored: history.csv, columns.json, motion.bin and summary.json with the bytes of
 /// RunDirectory, except that no VTU files are made or mentioned in the summary. twin: if given, receives the history

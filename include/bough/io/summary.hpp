@@ -17,6 +17,7 @@ struct RunOrigin {
   std::string scene_hash = {};                 ///< digest of its bytes
   std::vector<std::string> overrides = {};     ///< "/pointer=value", in the order in which they were applied
   std::string commit = {}, program_hash = {};  ///< of the program that ran (program_hash.hpp)
+  std::string key = {};                        ///< of a case of a batch: its identity (manifest.hpp)
 
   std::vector<std::filesystem::path> inputs() const;  ///< files that the results must not replace
 };

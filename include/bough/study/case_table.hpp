@@ -27,7 +27,10 @@ struct BatchCase {
   std::vector<std::string> overrides = {};
   std::vector<std::pair<std::string, std::string>> inputs = {};  ///< the varied inputs and their values as JSON, for
                                                                  ///< tables
-  int threads = 1;  ///< number of threads that the case asks for; it gets no more than there are
+  int threads = 1;       ///< number of threads that the case asks for; it gets no more than there are
+  std::string key = {};  ///< its identity (key_of); empty: not known yet
+  /// Of the folder of its results.
+  [[nodiscard]] io::Owner owner() const { return {"run", scene, key}; }
 };
 
 /// figures_fail: the run is complete, and an expected figure of its scene does not hold.

@@ -54,12 +54,12 @@ class Records {
 Records read_records(const std::filesystem::path& file);
 
 /// The file has one line per case: a hash, a blank, and the record as JSON. A record counts only if its line is
-/// complete and its hash matches, so a line cut off by a kill or a full disk is ignored. Forked child processes hold
-/// the file as well, so the folder is free only when the last worker of a killed batch has ended.
+/// complete and its hash matches, so a line cut off by a kill or a full disk is ignored. Its writer holds the lock of the
+/// folder (io::Writers::one).
 class Journal {
  public:
   /// resumes: keeps the existing records and drops damaged ones; otherwise the journal starts empty. Throws
-  /// std::runtime_error where the file cannot be written, io::OutputRefused where another process has it open.
+  /// std::runtime_error where the file cannot be written.
   Journal(std::filesystem::path file, bool resumes);
   ~Journal();
   Journal(const Journal&) = delete;

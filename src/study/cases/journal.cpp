@@ -1,7 +1,6 @@
 #include "bough/study/journal.hpp"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <array>
@@ -11,14 +10,12 @@
 #include <cstring>
 #include <stdexcept>
 #include <system_error>
-#include <thread>
 
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/digest.hpp"
 #include "bough/io/input_file.hpp"
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
-#include "bough/io/manifest.hpp"
 #include "bough/io/program_hash.hpp"
 #include "bough/lanes/instruction_set.hpp"
 #include "case_report.hpp"
@@ -126,30 +123,6 @@ bool is_final(const CaseResult& result) {
          status == CaseStatus::bad_input || status == CaseStatus::crashed;
 }
 
-namespace {
-
-/// Opens and locks a file; -1 if another process holds it. The lock ends with the process.
-int open_locked(const std::filesystem::path& file, int flags) {
-  const int descriptor = ::open(file.c_str(), flags | O_CLOEXEC, 0666);
-  if (descriptor < 0) fail(file, errno);
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return descriptor;
-  ::close(descriptor);
-  return -1;
-}
-
-/// As open_locked, but waits up to six seconds for workers of a killed batch: one that has called fsync ends only when
-/// the disk has answered.
-int open_mine(const std::filesystem::path& file, int flags) {
-  constexpr int most_tries = 300;
-  for (int k = 0; k < most_tries; ++k) {
-    if (const int descriptor = open_locked(file, flags); descriptor >= 0) return descriptor;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  throw io::OutputRefused("another batch writes into " + file.parent_path().string());
-}
-
-}  // namespace
-
 void for_each_record(
     const std::filesystem::path& file,
     const std::function<void(const std::string& key, const CaseResult& result, std::string_view line)>& call) {
@@ -186,7 +159,6 @@ Records read_records(const std::filesystem::path& file) {
 }
 
 Journal::Journal(std::filesystem::path file, bool resumes) : file_(std::move(file)) {
-  const int former = open_mine(file_, O_RDWR | O_CREAT);  // held until the new file is locked
   io::AtomicFile kept(file_);
   if (resumes)
     for_each_record(file_, [&](const std::string& key, const CaseResult& result, std::string_view line) {
@@ -194,8 +166,8 @@ Journal::Journal(std::filesystem::path file, bool resumes) : file_(std::move(fil
       kept.write(line);
     });
   kept.commit();  // complete records, durable before any is added
-  descriptor_ = open_mine(file_, O_WRONLY | O_APPEND);
-  ::close(former);
+  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOFOLLOW);
+  if (descriptor_ < 0) fail(file_, errno);
 }
 
 Journal::~Journal() {

@@ -71,7 +71,7 @@ void ReferenceCache::keep(const std::string& from, const io::History& history) c
   if (folder_.empty()) return;
   std::filesystem::create_directories(folder_);
   const std::string name = io::digest_of(from);
-  for (const char* ending : {".csv", ".txt"}) io::list_file(folder_, "references", name + ending);
+  for (const char* ending : {".csv", ".txt"}) io::list_file(folder_, {"references"}, name + ending);
   try {
     io::HistoryWriter writer(folder_ / (name + ".csv"), history.header);
     for (const records::HistoryRow& row : history.rows) writer.row(row);

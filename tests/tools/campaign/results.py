@@ -47,8 +47,8 @@ class Bench:
     def commands(self):
         """Verbs that write, each with the folders that hold good results before and after."""
         return {
-            "run": (["run", "new.json", "--out", "out", "--quiet"], ["out"]),
-            "batch": (["batch", "scenes", "--out", "all", "--threads", "3", "--quiet"],
+            "run": (["run", "new.json", "--out", "out", "--replace", "--quiet"], ["out"]),
+            "batch": (["batch", "scenes", "--out", "all", "--replace", "--threads", "3", "--quiet"],
                       ["all/a", "all/b", "all/c"]),
             "study": (["study", "study.json", "--out", "measured", "--threads", "1", "--quiet"], ["measured"]),
             "view": (["view", "out"], ["out"]),
@@ -65,12 +65,20 @@ class Bench:
         faults = []
         for name in folders:
             folder = self.place / name
+            if name.startswith("all/") and not self.is_whole("all"):  # a batch keeps the former results until its end
+                folder = self.place / name.replace("all/", "all.former/")
             faults += [f"{name}: {fault}" for fault in faults_of_files(folder)]
             if (self.template / name / "summary.json").exists():
                 faults += self.faults_of_run(folder, name)
             elif (self.template / name / "study.json").exists() and not (folder / "study.json").exists():
                 faults.append(f"{name}: the good results are gone")
         return faults
+
+    def is_whole(self, name):
+        try:
+            return json.loads((self.place / name / "manifest.json").read_text())["state"] == "good"
+        except (OSError, ValueError):
+            return False
 
     def faults_of_run(self, folder, name):
         try:
