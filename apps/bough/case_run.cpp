@@ -296,6 +296,9 @@ int finish_cases(const study::CaseTable& results, const std::vector<study::Measu
               << " not to be trusted without a closer look, " << num_not_as_expected
               << " with an expected figure that fails: " << (settings.out / "batch.csv").string() << "\n";
   }
+  if (settings.quiet && num_failed > num_stopped)  // those that were taken over were told when they ended
+    std::cerr << "bough: " << num_failed - num_stopped << " of " << results.size()
+              << " cases are not done: column cause of " << (settings.out / "batch.csv").string() << "\n";
   if (settings.quiet && num_doubted > 0)
     std::cerr << "bough: " << num_doubted << " of " << results.size()
               << " cases are not to be trusted without a closer look: column doubts of "

@@ -18,9 +18,10 @@ namespace {
 io::SceneFile read_case(const study::BatchCase& which) {
   if (!study::is_name_of_batch(which.name)) return io::read_scene(which.scene, which.overrides);
   io::SceneFile refused;
-  refused.problems.push_back({.value = which.scene.string(),
-                              .rule = "a batch keeps names like " + which.name + " for its own files",
-                              .hint = "give the scene another name"});
+  io::Problem& problem = refused.problems.emplace_back();
+  problem.value = which.scene.string();
+  problem.rule = "a batch keeps names like " + which.name + " for its own files";
+  problem.hint = "give the scene another name";
   return refused;
 }
 

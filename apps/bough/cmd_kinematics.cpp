@@ -1,6 +1,7 @@
 /// bough kinematics razi: the parts of the acceleration of a point in frames that turn in each other.
 /// bough kinematics motion: everything about one motion.
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "arguments.hpp"
@@ -87,6 +88,23 @@ int kinematics_razi(const RaziArguments& arguments) {
   return exit_done;
 }
 
+namespace {
+
+/// Name of the first row of a table with a number that is not finite; empty: there is none. Further rows of a matrix
+/// have no name of their own.
+std::string first_not_finite(const std::vector<std::vector<std::string>>& rows) {
+  std::string name;
+  for (const std::vector<std::string>& row : rows) {
+    if (!row.empty() && !row.front().empty()) name = row.front();
+    double x = 0.0;
+    for (std::size_t k = 1; k < row.size(); ++k)
+      if (io::read_number(row[k], x) && !std::isfinite(x)) return name;
+  }
+  return {};
+}
+
+}  // namespace
+
 int kinematics_motion(const MotionArguments& arguments) {
   io::refuse_to_overwrite({arguments.file}, {arguments.json});
   io::MotionInput input;
@@ -99,8 +117,14 @@ int kinematics_motion(const MotionArguments& arguments) {
     input = file.input;
   }
   const motion::MotionReport report = io::describe(input);
+  const std::vector<std::vector<std::string>> rows = io::motion_rows(report);
+  if (const std::string name = first_not_finite(rows); !name.empty()) {
+    std::cerr << "bough: " << name << " of this motion is not a finite number: it is too small, or too large, to be "
+              << "described in double precision\n";
+    return exit_failed;
+  }
   write_to(arguments.json, io::motion_json(report));
-  std::cout << table_text(io::motion_rows(report));
+  std::cout << table_text(rows);
   if (!arguments.json.empty()) std::cout << arguments.json.string() << "\n";
   return exit_done;
 }

@@ -203,10 +203,11 @@ def read_motion(directory):
     return Motion(pathlib.Path(directory) / "motion.bin")
 
 
-def run(scene, out, set=None, threads=None, check=True):  # noqa: A002  named as the option of the program
+def run(scene, out, set=None, threads=None, check=True, replace=False):  # noqa: A002  named as options of the program
     """Runs a scene into the directory `out` and reads it. `set`: {"/pointer": value}. A run that fails is a BoughError
-    unless check is False; input that is refused always is."""
-    words = ["run", os.fspath(scene), "--out", os.fspath(out), "--quiet"]
+    unless check is False; input that is refused always is, and so is a directory with results of another scene unless
+    replace is True."""
+    words = ["run", os.fspath(scene), "--out", os.fspath(out), "--quiet", *(["--replace"] if replace else [])]
     status, text = _call(words + _settings(set) + ([] if threads is None else ["--threads", str(threads)]))
     if status == 2 or (check and status != 0):
         raise BoughError(text.strip(), status)
@@ -214,8 +215,9 @@ def run(scene, out, set=None, threads=None, check=True):  # noqa: A002  named as
 
 
 def batch(folder, out, set=None, threads=None):  # noqa: A002
-    """Runs all scenes of a folder; returns the rows of batch.csv as a list of dictionaries, numbers as floats."""
-    words = ["batch", os.fspath(folder), "--out", os.fspath(out), "--quiet"]
+    """Runs all scenes of a folder, but for those that are done there and have not changed; returns the rows of batch.csv
+    as a list of dictionaries, numbers as floats."""
+    words = ["batch", os.fspath(folder), "--out", os.fspath(out), "--quiet", "--resume"]
     status, text = _call(words + _settings(set) + ([] if threads is None else ["--threads", str(threads)]))
     if status not in (0, 1):
         raise BoughError(text.strip(), status)
@@ -235,6 +237,11 @@ def _call(words):
     return done.returncode, done.stderr + done.stdout
 
 
+def _plain(text):
+    """A text of a table, without the apostrophe that keeps a spreadsheet from taking it for a formula."""
+    return text[1:] if text.startswith("'") and text.lstrip("'")[:1] in tuple("=+-@\t\r") else text
+
+
 def _number(text):
     try:
         return float(text)
@@ -249,7 +256,7 @@ def _read_table(directory):
     if not table.exists():
         table, twin = directory / "history.csv.partial", directory / "history.npy.partial"
     with open(table, encoding="utf-8", newline="") as file:
-        names = next(csv.reader(file))
+        names = [_plain(name) for name in next(csv.reader(file))]
         if twin.exists():
             return names, read_npy(twin, len(names))
         rows = [row.split(",") for row in file.read().split("\n")]

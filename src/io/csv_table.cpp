@@ -1,5 +1,7 @@
 #include "bough/io/csv_table.hpp"
 
+#include "bough/io/history.hpp"
+
 namespace bough::io {
 
 std::string CsvTable::read(std::string_view text) {
@@ -10,7 +12,7 @@ std::string CsvTable::read(std::string_view text) {
   std::string rule;
   const auto end_row = [&] {
     if (!has_cells && cell.empty()) return;
-    row.push_back(std::move(cell));
+    row.push_back(csv_text(std::move(cell)));
     cell.clear();
     has_cells = false;
     if (columns.empty())
@@ -37,7 +39,7 @@ std::string CsvTable::read(std::string_view text) {
       is_quoted = true;
       has_cells = true;
     } else if (c == ',') {
-      row.push_back(std::move(cell));
+      row.push_back(csv_text(std::move(cell)));
       cell.clear();
       has_cells = true;
     } else if (c == '\n' || c == '\r') {

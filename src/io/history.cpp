@@ -1,6 +1,9 @@
 #include "bough/io/history.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "bough/io/input_file.hpp"
 #include "bough/io/number_text.hpp"
@@ -20,7 +23,9 @@ records::HistoryHeader read_header(const std::filesystem::path& path, std::strin
   bool good = split_csv_line(line, fields) && fields.size() >= 3;
   for (std::size_t k = 0; good && k < 3; ++k) good = fields[k] == fixed_columns[k];
   if (!good) fail_at(path, 1, "not a history: the header must begin with time,step_size,iterations");
-  return {{fields.begin() + 3, fields.end()}};
+  std::vector<std::string> columns;
+  std::transform(fields.begin() + 3, fields.end(), std::back_inserter(columns), csv_text);
+  return {std::move(columns)};
 }
 
 records::HistoryRow read_row(const std::filesystem::path& path, std::size_t number, std::string_view line,
@@ -54,14 +59,34 @@ records::HistoryRow read_row(const std::filesystem::path& path, std::size_t numb
 
 }  // namespace
 
-std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
+namespace {
+
+/// Whether a spreadsheet would take a text for a formula, once it has lost the apostrophes before it.
+bool is_like_formula(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of('\''), text.size()));
+  return !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
+}
+
+std::string quoted_field(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"') quoted += '"';
     quoted += c == '\n' || c == '\r' ? ' ' : c;  // one record, one line
   }
   return quoted + '"';
+}
+
+}  // namespace
+
+std::string csv_field(std::string_view text) {
+  double number = 0.0;
+  const std::string field = (is_like_formula(text) && !read_number(text, number) ? "'" : "") + std::string(text);
+  return field.find_first_of(",\"\n\r") == std::string::npos ? field : quoted_field(field);
+}
+
+std::string csv_text(std::string field) {
+  if (field.starts_with('\'') && is_like_formula(field)) field.erase(0, 1);
+  return field;
 }
 
 bool split_csv_line(std::string_view line, std::vector<std::string>& fields) {

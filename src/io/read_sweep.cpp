@@ -1,6 +1,7 @@
 #include "bough/io/read_sweep.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -50,6 +51,15 @@ class SweepConverter : public SceneConverter {
     }
   }
 
+  /// Whether the tables of a batch have a column of this name for every case.
+  static bool is_column_of_tables(const std::string& name) {
+    constexpr std::array names = {
+        "case",           "status",         "cause",  "steps_accepted", "steps_rejected",   "newton_iterations",
+        "expected_holds", "expected_fails", "doubts", "energy_error",   "constraint_error", "machine"};
+    return std::any_of(names.begin(), names.end(), [&](const char* column) { return name == column; });
+  }
+  static constexpr const char* column_rule = "the tables of a batch have a column of this name already";
+
   /// "/pointer=value" for all that a pointer names.
   std::vector<std::string> pointers_of(const std::string& pointer, const std::string& value, const std::string& at) {
     std::vector<std::string> list = read_setting(pointer, value, at + "/pointer");
@@ -66,7 +76,12 @@ class SweepConverter : public SceneConverter {
     std::string all;
     if (const Value* own = scene ? scene->find("measures") : nullptr; own != nullptr && own->is(JsonKind::array))
       for (const Value& m : own->items) all += (all.empty() ? "" : ", ") + spec.scene_text.substr(m.offset, m.length);
-    for (const Value& m : measures->items) all += (all.empty() ? "" : ", ") + slice(m);
+    for (std::size_t i = 0; i < measures->items.size(); ++i) {
+      const Value& m = measures->items[i];
+      all += (all.empty() ? "" : ", ") + slice(m);
+      if (m.sound && is_column_of_tables(m.find("name")->text))
+        fault("/measures/" + std::to_string(i) + "/name", column_rule);
+    }
     spec.overrides.push_back("/measures=[" + all + "]");
     origins_.push_back({"/measures", "/measures"});
   }
@@ -84,6 +99,7 @@ class SweepConverter : public SceneConverter {
     variable.name = v.find("name")->text;
     if (!names_.insert(variable.name).second)
       fault(at + "/name", "another variable has this name", "names are used once");
+    if (is_column_of_tables(variable.name)) fault(at + "/name", column_rule);
     const Value* pointer = v.find("pointer");
     const std::string where = pointer == nullptr ? pointer_to("/parameters", variable.name) : pointer->text.str();
     for (const std::string& o : pointers_of(where, "", at)) variable.pointers.push_back(o.substr(0, o.find('=')));
@@ -169,6 +185,8 @@ class SweepConverter : public SceneConverter {
       const Value* given = variables.items[i].find("column");
       const std::string& name = given == nullptr ? design.variables[i].name : given->text.str();
       const auto column = std::find(table.columns.begin(), table.columns.end(), name);
+      if (column != table.columns.end() && std::find(column + 1, table.columns.end(), name) != table.columns.end())
+        fault(at + "/file", "the table has two columns \"" + shown(name) + "\"");
       if (column == table.columns.end()) {
         fault(at + "/variables/" + std::to_string(i), "the table has no column \"" + shown(name) + "\"");
         continue;

@@ -203,6 +203,29 @@ holds cmp good.out/history.csv german/history.csv
 expect 0 'done' run good.json --out stride --set /output/stride=10
 holds test "$(wc -l < stride/history.csv)" -eq 7
 
+# names in tables
+
+expect 0 'done' run good.json --out formula --set '/sensors/0/name="=1+1"'
+holds grep -q "^time,step_size,iterations,'=1+1" formula/history.csv
+expect 0 '^equal' compare formula formula
+named() { echo "{\"schema_version\":1,\"scene\":\"good.json\",\"designs\":[$1],\"measures\":[{\"name\":\"$2\",\"quantity\":\"bob.z\",\"figure\":\"min\"}]}" > named.json; }
+mass='"pointer":"/bodies/bob/mass","values":[1,2]'
+for name in case status cause; do
+  named "{\"kind\":\"grid\",\"variables\":[{\"name\":\"$name\",$mass}]}" low
+  expect 2 '/designs/0/variables/0/name.*column of this name' sweep named.json --dry-run
+  named "{\"kind\":\"grid\",\"variables\":[{\"name\":\"m\",$mass}]}" $name
+  expect 2 '/measures/0/name.*column of this name' sweep named.json --dry-run
+done
+printf 'm,m\n1,2\n' > twice.csv
+named '{"kind":"csv","file":"twice.csv","variables":[{"name":"m","pointer":"/bodies/bob/mass"}]}' low
+expect 2 'two columns "m"' sweep named.json --dry-run
+named '{"kind":"grid","variables":[{"name":"s","pointer":"/analysis/step_size","values":[0.02,-1]}]}' low
+expect 1 '2: bad_input' sweep named.json --out named.out --quiet
+expect 1 '1 of 2 cases are not done' sweep named.json --out named.out --quiet --resume
+echo '{"schema_version":1,"to":{"position":[1,2,3],"rotation":{"axis":[0,0,1],"angle":5e-324}}}' > tiny.json
+expect 1 'is not a finite number' kinematics motion tiny.json --json tiny.out
+holds test ! -e tiny.out
+
 # what cannot be written
 : > file
 expect 1 'file' run good.json --out file

@@ -74,6 +74,15 @@ struct CommaNumbers : std::numpunct<char> {
   std::string do_grouping() const override { return "\3"; }
 };
 
+TEST(History, names_that_a_spreadsheet_would_take_for_formulas_are_guarded_and_come_back) {
+  const ScratchDirectory scratch;
+  const records::HistoryHeader header{{"=1+1", "'=x", "''@y", "-z,a", "'plain", "+", "-1"}};
+  HistoryWriter writer(scratch / "history.csv", header);
+  writer.commit();
+  EXPECT_EQ(text_of(scratch / "history.csv"), "time,step_size,iterations,'=1+1,''=x,'''@y,\"'-z,a\",'plain,'+,-1\n");
+  EXPECT_EQ(read_history(scratch / "history.csv").header.columns, header.columns);
+}
+
 TEST(History, is_the_same_under_a_locale_with_decimal_commas) {
   const ScratchDirectory scratch;
   const auto write = [&](const char* name) {

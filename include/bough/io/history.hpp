@@ -45,8 +45,10 @@ struct History {
 /// Reads a history back, bit for bit. Throws std::runtime_error naming file, line and what is wrong.
 History read_history(const std::filesystem::path& path);
 
-/// One field of a CSV line, quoted where it must be.
+/// One field of a CSV line, quoted where it must be. Text that a spreadsheet would take for a formula gets an apostrophe
+/// before it; numbers do not. csv_text: takes it away again.
 std::string csv_field(std::string_view text);
+std::string csv_text(std::string field);
 /// The fields of one CSV line. False where a quote is not closed.
 [[nodiscard]] bool split_csv_line(std::string_view line, std::vector<std::string>& fields);
 

@@ -9,18 +9,11 @@
 namespace bough::study {
 namespace {
 
-/// A field of text. Text that a spreadsheet would take for a formula gets a leading apostrophe.
-std::string text_field(const std::string& text) {
-  const bool looks_like_formula =
-      !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
-  return io::csv_field(looks_like_formula ? "'" + text : text);
-}
-
 /// An input is JSON text: a number or a word as it is, a string without its quotes.
 std::string input_field(const std::string& json) {
   double number = 0.0;
   if (io::read_number(json, number)) return json;
-  return text_field(json.size() >= 2 && json.front() == '"' ? json.substr(1, json.size() - 2) : json);
+  return io::csv_field(json.size() >= 2 && json.front() == '"' ? json.substr(1, json.size() - 2) : json);
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -59,15 +52,15 @@ void write_batch_csv(const CaseTable& results, const io::TextSink& sink,
       "case,status,cause,steps_accepted,steps_rejected,newton_iterations,expected_holds,expected_fails,doubts,"
       "energy_error,constraint_error";
   for (const Columns* columns : {&inputs, &measures})
-    for (const std::string& name : columns->names()) text += ',' + text_field(name);
+    for (const std::string& name : columns->names()) text += ',' + io::csv_field(name);
   text += machine_of ? ",machine\n" : "\n";
   for (std::size_t i = 0; i < results.size(); ++i) {
     const CaseResult r = results.at(i);
-    text += text_field(r.which.name) + ',' + std::string(text_of(r.status)) + ',' + text_field(r.cause);
+    text += io::csv_field(r.which.name) + ',' + std::string(text_of(r.status)) + ',' + io::csv_field(r.cause);
     for (const long n : {r.report.accepted, r.report.rejected, r.report.newton_iterations,
                          static_cast<long>(r.report.expected_holds), static_cast<long>(r.report.expected_fails)})
       text += ',' + std::to_string(n);
-    text += ',' + text_field(joined(r.report.doubts));
+    text += ',' + io::csv_field(joined(r.report.doubts));
     for (const std::optional<double>& x : {r.report.energy_error, r.report.constraint_error}) {
       text += ',';
       if (x) io::append_rounded(text, *x, 6);
@@ -142,8 +135,8 @@ std::string sensitivities_csv(const std::vector<MeasureSensitivity>& sensitiviti
     for (std::size_t i = 0; i < s.of.indices.size(); ++i)
       for (std::size_t k = 0; k < s.variables.size(); ++k) {
         const Index& index = s.of.values[i][k];
-        text +=
-            text_field(s.measure) + ',' + s.of.method + ',' + s.of.indices[i] + ',' + text_field(s.variables[k]) + ',';
+        text += io::csv_field(s.measure) + ',' + s.of.method + ',' + s.of.indices[i] + ',' +
+                io::csv_field(s.variables[k]) + ',';
         io::append_number(text, index.value);
         for (const std::optional<double>& end : {index.low, index.high}) {
           text += ',';
@@ -204,7 +197,7 @@ void write_batch_json(const CaseTable& results, const std::string& title,
 void write_cost_csv(const CaseTable& results, const io::TextSink& sink) {
   sink("case,wall_seconds,cpu_seconds,peak_megabytes\n");
   for (const CaseResult& r : results)
-    sink(text_field(r.which.name) + ',' + io::rounded_text(r.cost.wall_seconds, 4) + ',' +
+    sink(io::csv_field(r.which.name) + ',' + io::rounded_text(r.cost.wall_seconds, 4) + ',' +
          io::rounded_text(r.cost.cpu_seconds, 4) + ',' + io::rounded_text(1e-6 * r.cost.peak_bytes, 4) + '\n');
 }
 

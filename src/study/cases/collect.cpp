@@ -164,8 +164,7 @@ std::string adopt_cases(const std::string& text, SweepCases& cases) {
     return "it has " + std::to_string(table.rows.size()) + " cases of " + std::to_string(table.columns.size() - 1) +
            " variables, and there are " + std::to_string(cases.size()) + " of " + std::to_string(variables.size());
   for (std::size_t k = 0; k < variables.size(); ++k)
-    if (io::CsvTable header;
-        header.read(io::csv_field(variables[k])).empty() && header.columns.front() != table.columns[k + 1])
+    if (table.columns[k + 1] != variables[k])
       return "it has the variable " + table.columns[k + 1] + " in the place of " + variables[k];
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const SweepCase c = cases.at(i);
