@@ -37,7 +37,7 @@ build: build/release/build.ninja
 run: build/release/build.ninja
 	@$(NEED) build
 	cmake --build build/release --parallel $(JOBS) --target bough
-	build/release/bough run $(SCENARIO) --out $(RESULTS) --set /output/motion=true
+	build/release/bough run $(SCENARIO) --out $(RESULTS) --replace --set /output/motion=true
 	build/release/bough view $(RESULTS)
 	@echo "Results in $(RESULTS):" && ls -1 $(RESULTS)
 

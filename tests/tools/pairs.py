@@ -87,11 +87,12 @@ def phases(summary):
 def compare(scene, args, scratch):
     """One scene: a line of text, and whether the result is acceptable."""
     title = os.path.splitext(os.path.basename(scene))[0]
+    place = os.path.join(scratch, os.path.basename(os.path.dirname(scene)) + "_" + title)  # a folder has one scene
     process, steps, spent = [], [], []
     first = None
     for _ in range(args.rounds):
-        old = run(args.old, scene, os.path.join(scratch, "old"))
-        new = run(args.new, scene, os.path.join(scratch, "new"))
+        old = run(args.old, scene, place + ".old")
+        new = run(args.new, scene, place + ".new")
         for result in (old, new):
             if result[1] is None:
                 return f"{title}: FAILED {result[2]}", False

@@ -173,7 +173,7 @@ def command_for(generator, kind, file, overrides, folder):
         return ["check", file]
     verb = generator.choice(("check", "check", "run", "plan"))
     if verb == "run":
-        sets += ["--set", "/analysis/end_time=0.001", "--out", folder / "out", "--quiet"]
+        sets += ["--set", "/analysis/end_time=0.001", "--out", folder / "out", "--replace", "--quiet"]
     return [verb, file] + sets
 
 

@@ -42,7 +42,7 @@ def verbs(folder, source):
                                "/analysis/end_time=0.01"],
         "check": ["check", scene],
         "plan": ["plan", scene],
-        "batch": ["batch", folder / "scenes", "--out", folder / "batch"],
+        "batch": ["batch", folder / "scenes", "--out", folder / "batch", "--replace"],
         "view": ["view", out],
         "compare": ["compare", out, out],
         "profile": ["profile", scene, "--out", folder / "profile", "--steps", "20"],

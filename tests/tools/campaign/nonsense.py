@@ -26,7 +26,7 @@ def add_arguments(parser):
 
 def says(program, verb, scene, folder):
     """The text that a verb prints about a scene file, and faults of the run itself."""
-    command = [program, verb, scene] + (["--out", folder / "out"] if verb == "run" else [])
+    command = [program, verb, scene] + (["--out", folder / "out", "--replace"] if verb == "run" else [])
     result = run_program(command, seconds=200)
     text = re.sub(r"\s+", " ", (result.out + b" " + result.err).decode("utf-8", "replace"))
     summary = folder / "out" / "summary.json"
