@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "arguments.hpp"
+#include "bough/io/input_file.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/quantity_text.hpp"
 #include "bough/io/read_study.hpp"
@@ -182,21 +183,29 @@ std::string policy_of(const CaseArguments& arguments) {
   return arguments.retries > 0 ? "retries " + std::to_string(arguments.retries) : std::string();
 }
 
+namespace {
+
+/// Whether a folder lists cases with their keys, as a batch does before its first case ends.
+bool has_keys(const std::filesystem::path& folder) try {
+  return io::read_text(folder / study::keys_file).starts_with("case,key\n");
+} catch (const io::Unreadable&) {
+  return false;
+}
+
+}  // namespace
+
 io::Owner take_folder(const CaseSettings& settings, const std::string& verb, const std::filesystem::path& source) {
   io::Owner owner{.verb = verb, .source = source, .replaces = settings.replace};
   const std::filesystem::path journal = settings.out / study::journal_file;
   std::size_t num_rows = 0;
   study::for_each_record(journal, [&](const auto&, const auto&, const auto&) { ++num_rows; });
-  if (num_rows == 0 || settings.replace) return owner;
-  if (settings.resume) {
-    if (io::repair_manifest(
-            settings.out, owner,
-            {study::journal_file, study::keys_file, study::cases_file, study::shard_file, io::store_names, "batch.csv",
-             "batch.json", "batch.html", "cost.csv", "sensitivities.csv"}))
-      std::cerr << "bough: " << (settings.out / io::manifest_name).string()
-                << " was damaged, and is made anew, since the journal beside it has " << num_rows << " whole rows\n";
-    return owner;
-  }
+  if (settings.resume && (num_rows > 0 || has_keys(settings.out)) &&
+      io::repair_manifest(settings.out, owner,
+                          {study::journal_file, study::keys_file, study::cases_file, study::shard_file, io::store_names,
+                           "batch.csv", "batch.json", "batch.html", "cost.csv", "sensitivities.csv"}))
+    std::cerr << "bough: " << (settings.out / io::manifest_name).string()
+              << " was damaged, and is made anew, since the journal beside it has " << num_rows << " whole rows\n";
+  if (num_rows == 0 || settings.replace || settings.resume) return owner;
   io::require_ours(settings.out, owner);
   throw io::OutputRefused(settings.out.string() + " holds results of " + std::to_string(num_rows) +
                           (num_rows == 1 ? " case" : " cases") +
