@@ -22,7 +22,10 @@ StiffenedInterface stiffen(const Eigen::MatrixXd& S, double penalty_factor) {
     Eigen::MatrixXd stiffened = S;
     stiffened.diagonal() += to.penalty;
     to.factor.compute(stiffened);
-    if (k == most_doublings || to.factor.rcond() >= cancels * std::min(1.0, penalty_factor)) return to;
+    // rcond() says nothing of a factor with a pivot of zero.
+    const bool is_regular = to.factor.matrixLU().diagonal().cwiseAbs().minCoeff() > 0.0 &&
+                            to.factor.rcond() >= cancels * std::min(1.0, penalty_factor);
+    if (k == most_doublings || is_regular) return to;
     to.penalty *= 2.0;
   }
 }

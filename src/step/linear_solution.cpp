@@ -103,8 +103,7 @@ std::optional<Trouble> LinearSolution::factor(bool rescale, const elements::Slop
   PhaseTimer timer{clock_, counts_.factor};
   const bool is_like_the_last = !rescale && has_factor(slopes);
   if (!is_like_the_last) solver_->rescale();
-  const bool was_trusted =
-      is_trusted_ && is_like_the_last && last_solution_.backward_error <= 0.1 * good_;
+  const bool was_trusted = is_trusted_ && is_like_the_last && last_solution_.backward_error <= 0.1 * good_;
   is_factored_ = is_trusted_ = false;
   contraction_ = 1.0;
   service_cost_ = renewal_cost_;
