@@ -6,6 +6,8 @@
 #include <fstream>
 
 #include "bough/io/atomic_file.hpp"
+#include "bough/io/folder_lock.hpp"
+#include "bough/io/manifest.hpp"
 #include "bough/io/output_folder.hpp"
 #include "bough/study/collect.hpp"
 #include "support/scratch_directory.hpp"
@@ -54,6 +56,24 @@ class CaseFolders : public testing::Test {
   }
   support::ScratchDirectory batch_;
 };
+
+TEST_F(CaseFolders, leave_nothing_of_writers_that_were_killed_with_nothing_listed) {
+  make("1", "x");
+  end("1", "x");
+  const fs::path bare = batch_.path() / ".1.bough-new", begun = batch_.path() / ".2.bough-new",
+                 busy = batch_.path() / ".3.bough-new", foreign = batch_.path() / ".4.bough-new";
+  for (const fs::path& folder : {bare, begun, busy, foreign}) fs::create_directory(folder);
+  io::write_file(begun / (std::string(io::manifest_name) + ".partial"), "{");
+  io::write_file(foreign / "thesis.txt", "of somebody");
+  io::FolderLock writer;
+  ASSERT_TRUE(writer.take(busy));
+  settle(cases({{"1", "x"}}));
+  EXPECT_FALSE(fs::exists(bare));
+  EXPECT_FALSE(fs::exists(begun));
+  EXPECT_TRUE(fs::exists(busy)) << "its writer lives";
+  EXPECT_TRUE(fs::exists(foreign / "thesis.txt"));
+  EXPECT_EQ(held("1"), "x");
+}
 
 TEST_F(CaseFolders, take_the_names_that_the_cases_have_now) {
   for (const auto& [name, key] : {std::pair{"1", "x"}, {"2", "y"}, {"3", "z"}}) {

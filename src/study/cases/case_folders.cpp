@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "bough/io/csv_table.hpp"
+#include "bough/io/folder_lock.hpp"
 #include "bough/io/input_file.hpp"
 #include "bough/io/manifest.hpp"
 #include "bough/study/collect.hpp"
@@ -38,6 +39,25 @@ fs::path free_place(const fs::path& place) {
   fs::path free = place;
   for (int k = 2; is_taken(free); ++k) free = place.string() + "." + std::to_string(k);
   return free;
+}
+
+/// Removes the folders of writers that were killed before they had listed anything in them, or after they had removed
+/// all of it. Who still writes holds a lock.
+void remove_bare_staging(const fs::path& batch) {
+  std::error_code ignored;
+  std::vector<fs::path> bare;
+  for (fs::directory_iterator it(batch, ignored), end; !ignored && it != end; it.increment(ignored)) {
+    const std::string name = it->path().filename().string();
+    std::error_code unknown;
+    if (!name.starts_with(".") || !name.ends_with(".bough-new") || !it->is_directory(unknown)) continue;
+    if (!io::read_manifest(it->path())) bare.push_back(it->path());
+  }
+  for (const fs::path& folder : bare) {
+    io::FolderLock lock;
+    if (!lock.take(folder)) continue;
+    fs::remove(folder / (std::string(io::manifest_name) + ".partial"), ignored);
+    fs::remove(folder, ignored);  // if nothing else is in it
+  }
 }
 
 }  // namespace
@@ -89,6 +109,7 @@ std::optional<fs::path> remove_case(const fs::path& folder) {
 
 std::vector<fs::path> settle_case_folders(const fs::path& batch, const CaseList& cases, const Records& records) {
   std::vector<fs::path> aside;
+  remove_bare_staging(batch);
   const std::vector<fs::path> folders = io::listed_folders(batch);
   if (folders.empty()) return aside;
   std::unordered_map<std::string, std::string> name_of;  // by key
