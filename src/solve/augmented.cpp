@@ -22,7 +22,7 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 /// Pivots of the root below this are examined for dependent rows.
-constexpr double suspect_pivot = 1e-6;
+constexpr double suspect_pivot_of_root = 1e-6;
 
 /// The interface of one sub-domain. Unknowns that its top front keeps: refused pivots first, then the boundary.
 struct Interface {
@@ -268,7 +268,7 @@ struct Augmented::State {
 
   void decide_rank(const tree::Walker& walker) {
     const tree::SubdomainId root = tree.root();
-    fronts.eliminate_completely(root, 0, suspect_pivot);
+    fronts.eliminate_completely(root, 0, suspect_pivot_of_root);
     if (fronts.num_refused(root) == 0) return dependent.forget();
     const RemainingUnknowns remaining{[&](Matrix& right, Matrix* left) { eval_candidates(right, left); },
                                       [&](const double* b, double* x) { solve_scaled(walker, b, x); },

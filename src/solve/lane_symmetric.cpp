@@ -44,8 +44,8 @@ inline void update(const Front& f, int k0, int column, const double* products) {
 }
 
 /// One register of lanes.
-unsigned eliminate_register(const Front& f, const double* scale, const double* inverse_scale, const PivotRule& rule,
-                            Transfers& beside) {
+unsigned eliminate_symmetric_register(const Front& f, const double* scale, const double* inverse_scale,
+                                      const PivotRule& rule, Transfers& beside) {
   alignas(64) double products[most_lane_rows * panel_width * wide];
   unsigned failed = 0;
   for (int k0 = 0; k0 < f.e;) {
@@ -67,7 +67,7 @@ unsigned eliminate_register(const Front& f, const double* scale, const double* i
 
 /// y = L^-T y for K rows, L unit.
 template <int K>
-inline void backward_triangle(const double* l, std::ptrdiff_t ld, double* v) {
+inline void backward_symmetric_triangle(const double* l, std::ptrdiff_t ld, double* v) {
   Lanes x[K];
   for (int k = 0; k < K; ++k) x[k] = load(v + k * wide);
   for (int k = K - 1; k >= 0; --k)
@@ -82,7 +82,7 @@ LaneSet eliminate_lanes_symmetric(double* factor, double* schur, int n, int e, c
   unsigned failed = 0;
   for (int l = 0; l < wide; l += width) {
     const Front f = register_of(factor, schur, n, e, l, Symmetry::symmetric);
-    failed |= eliminate_register(f, scale + l, inverse_scale + l, rule, beside) << l;
+    failed |= eliminate_symmetric_register(f, scale + l, inverse_scale + l, rule, beside) << l;
   }
   return static_cast<LaneSet>(failed);
 }
@@ -96,7 +96,7 @@ void backward_lanes_symmetric(const double* factor, int n, int e, double* v) {
       double* y = v + k0 * wide + l;
       for (int i = 0; i < k; ++i) store(y + i * wide, load(y + i * wide) * load(block + i * (ld + wide)));
       accumulate_rows<false>(k, block + k * wide, ld, wide, n - k0 - k, y + k * wide, y);
-      with_size(k, [&](auto size) { backward_triangle<decltype(size)::value>(block, ld, y); });
+      with_size(k, [&](auto size) { backward_symmetric_triangle<decltype(size)::value>(block, ld, y); });
     }
 }
 

@@ -18,7 +18,7 @@ constexpr double coarse_pivot =
 /// Flexibility of a tie, against the largest of its leaf, below which it is round-off: joints hold that direction.
 /// Scaled to one, the round-off of a direction held on both sides (a dependent row) would be taken for stiffness.
 constexpr double held = 1e-6;
-constexpr double suspect_pivot =
+constexpr double suspect_pivot_of_ties =
     1e-6;  ///< pivots of the interface problem below this are examined before they are used
 }  // namespace
 
@@ -132,7 +132,7 @@ void Dual::State::factor_interface() {
   } else {
     FrontMatrix front = interface.front();
     interface.pivots = std::max(0, eliminate_with_threshold(front, {0.1, 1e-2}));
-    interface.pivots = eliminate_completely(front, interface.pivots, interface.full, suspect_pivot);
+    interface.pivots = eliminate_completely(front, interface.pivots, interface.full, suspect_pivot_of_ties);
   }
   seconds = static_cast<double>(std::clock()) / CLOCKS_PER_SEC - start;
 }
