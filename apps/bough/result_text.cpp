@@ -44,9 +44,12 @@ std::string interfaces_text(const records::Summary& summary) {
   }
   std::string text = "  interfaces         ";
   if (subdomains == 1) return text + "none: one sub-domain\n";
-  text += std::to_string(subdomains - 1) + " on " + std::to_string(summary.levels.size() - 1) + " levels, of up to " +
-          std::to_string(widest) + " unknowns";
+  text += std::to_string(subdomains - 1) + " on " + count_text(static_cast<long>(summary.levels.size()) - 1, "level") +
+          ", of up to " + count_text(widest, "unknown");
   if (condition > 0.0) text += ", condition of their flexibilities up to " + rounded_text(condition, 2);
+  for (const auto& [name, value] : summary.solver)
+    if (name == "interfaces_indefinite" && value > 0.0)
+      text += ", " + rounded_text(value, 6) + " with a stiffness that is not definite";
   return text + "\n";
 }
 

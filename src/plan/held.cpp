@@ -7,7 +7,7 @@
 #include "bough/plan/small_inverse.hpp"
 #include "geometry.hpp"
 #include "plan_builder.hpp"
-#include "sets.hpp"
+#include "bough/plan/sets.hpp"
 
 namespace bough::plan {
 

@@ -4,7 +4,7 @@
 
 #include "listed.hpp"
 #include "plan_builder.hpp"
-#include "sets.hpp"
+#include "bough/plan/sets.hpp"
 
 namespace bough::plan {
 

@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "sets.hpp"
+#include "bough/plan/sets.hpp"
 
 namespace bough::plan {
 

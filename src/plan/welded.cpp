@@ -8,7 +8,7 @@
 #include "bough/scene/signals.hpp"
 #include "geometry.hpp"
 #include "plan_builder.hpp"
-#include "sets.hpp"
+#include "bough/plan/sets.hpp"
 
 namespace bough::plan {
 

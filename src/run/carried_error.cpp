@@ -144,7 +144,8 @@ void CarriedError::choose_stride(const step::State& state, double turn, double s
   all_ += spent;
   const double turned = static_cast<double>(stride_) * turn;
   if ((stride_ > 1 && (turned > most_turn || spun > most_spin)) || !transport_.is_solved()) unresolved_ += spent;
-  if (spun > most_spin) too_much_ = std::numeric_limits<double>::infinity();       // steps of the run are no finer
+  // Even steps as small as those of the run turn too far: what the rule adds to the error there is not certain.
+  if (spun > most_spin) too_much_ = std::numeric_limits<double>::infinity();
   const long smooth = std::clamp(wanted, stride_ / 2, stride_ + 1 + stride_ / 4);  // jumps of the size leave their mark
   stride_ = std::clamp(std::max(least, smooth), 1L, most_stride);
 }

@@ -63,9 +63,8 @@ void note_missing_interfaces(const EndedRun& run) {
   if (form == scene::SolverForm::local || form == scene::SolverForm::monolithic) return;
   if (run.system.linear().tree().num_subdomains() == 1)
     run.recording.account().note(
-        "the form of the solver has nothing to act on: the tree is one sub-domain without an interface, where all "
-        "forms "
-        "are the same; \"depth\" or a smaller \"leaf_size\" in /solver cuts it");
+        "the form of the solver has nothing to act on: the tree is one sub-domain without an interface, on which all "
+        "forms are the same; \"depth\" or a smaller \"leaf_size\" in /solver cuts it");
 }
 
 }  // namespace

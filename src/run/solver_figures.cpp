@@ -77,7 +77,8 @@ std::vector<solve::InterfaceReport> interfaces_of(step::System& system) {
 }
 
 /// Levels of the tree with their widths, and the condition numbers of their interfaces if these are narrow.
-std::vector<records::LevelFigures> make_levels(step::System& system) {
+/// indefinite: receives the number of those whose stiffness is not definite, which no bound on the condition holds for.
+std::vector<records::LevelFigures> make_levels(step::System& system, int& indefinite) {
   const tree::Tree& tree = system.linear().tree();
   std::vector<records::LevelFigures> levels;
   for (const tree::Subdomain& s : tree.subdomains) {
@@ -92,6 +93,7 @@ std::vector<records::LevelFigures> make_levels(step::System& system) {
   for (const solve::InterfaceReport& i : interfaces_of(system)) {
     records::LevelFigures& level = levels[static_cast<std::size_t>(i.level)];
     level.condition = std::max(level.condition, i.condition);
+    indefinite += i.is_definite ? 0 : 1;
   }
   return levels;
 }
@@ -149,11 +151,13 @@ void look_at_last_factor(step::System& system, records::Summary& summary) {
   const solve::Hierarchical* solver = any.hierarchical();
   if (solver == nullptr && any.augmented() == nullptr) return;
   if (system.counts().factorizations == 0 || !any.last_status().ok()) return;
-  summary.levels = make_levels(system);
+  int indefinite = 0;
+  summary.levels = make_levels(system, indefinite);
   if (has_narrow_interfaces(system.linear().tree())) {
     double most = 1.0;
     for (const records::LevelFigures& level : summary.levels) most = std::max(most, level.condition);
     summary.solver.emplace_back("interface_condition_max", most);
+    summary.solver.emplace_back("interfaces_indefinite", indefinite);
   }
   if (solver == nullptr) return;
   const double condition =

@@ -1,8 +1,8 @@
 #include "drift.hpp"
 
 #include <algorithm>
-#include <numeric>
 
+#include "bough/plan/sets.hpp"
 #include "bough/step/system.hpp"
 
 namespace bough::step {
@@ -52,42 +52,31 @@ std::vector<Heap> heaps_of(const plan::Plan& plan) {
   return heaps;
 }
 
-/// Sets of the nodes of a plan, and of the ground, that elements join.
-class JoinedNodes {
- public:
-  /// joins(e): whether this element joins its ports.
-  JoinedNodes(const plan::Plan& plan, const auto& joins) : set_(plan.nodes.size() + 1) {
-    std::iota(set_.begin(), set_.end(), std::size_t{0});
-    for (const plan::ElementPlace& place : plan.directory)
-      plan::with_element(plan.elements, place, [&](const auto& e) {
-        if (!joins(e)) return;
-        for (const elements::Port& port : e.ports) set_[of(port.node)] = of(e.ports[0].node);
-      });
-  }
-  std::size_t of(int node) {
-    std::size_t v = node < 0 ? set_.size() - 1 : static_cast<std::size_t>(node);
-    while (set_[v] != v) v = set_[v] = set_[set_[v]];
-    return v;
-  }
-
- private:
-  std::vector<std::size_t> set_;
-};
+/// Joins the ports of the elements for which joins(e) holds.
+plan::Sets join_ports(const plan::Plan& plan, const auto& joins) {
+  plan::Sets sets(plan.nodes.size());
+  for (const plan::ElementPlace& place : plan.directory)
+    plan::with_element(plan.elements, place, [&](const auto& e) {
+      if (!joins(e)) return;
+      for (const elements::Port& port : e.ports) sets.join(sets.index(port), sets.index(e.ports[0]));
+    });
+  return sets;
+}
 
 /// The assembly of each node, numbered in the order of nodes; -1 where something ties a node to the ground.
 std::vector<int> assemblies_of(const plan::Plan& plan) {
-  JoinedNodes tied(plan, [](const auto&) { return true; });
-  JoinedNodes joined(plan, [](const auto& e) {
+  plan::Sets tied = join_ports(plan, [](const auto&) { return true; });
+  plan::Sets joined = join_ports(plan, [](const auto& e) {
     constexpr auto role = std::decay_t<decltype(e)>::role;
     return role == elements::Role::beam || role == elements::Role::joint;
   });
   std::vector<int> number(plan.nodes.size() + 1, -1), assembly(plan.nodes.size(), -1);
   int count = 0;
-  for (int n = 0; n < static_cast<int>(assembly.size()); ++n) {
-    if (tied.of(n) == tied.of(elements::ground)) continue;
+  for (std::size_t n = 0; n < assembly.size(); ++n) {
+    if (tied.of(n) == tied.of(tied.ground())) continue;
     int& of_set = number[joined.of(n)];
     if (of_set < 0) of_set = count++;
-    assembly[static_cast<std::size_t>(n)] = of_set;
+    assembly[n] = of_set;
   }
   return assembly;
 }

@@ -1,9 +1,9 @@
 #include "bough/step/motion_tree.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "bough/elements/strain_path.hpp"
+#include "bough/plan/sets.hpp"
 #include "bough/step/corrections.hpp"
 #include "element_parts.hpp"
 
@@ -57,12 +57,7 @@ void add_groups(const plan::Plan& plan, MotionTree& tree, int& section) {
 MotionTree make_motion_tree(const plan::Plan& plan) {
   const std::size_t n = plan.nodes.size();  // vertex n represents the inertial frame
   const auto vertex = [n](int node) { return node < 0 ? n : static_cast<std::size_t>(node); };
-  std::vector<std::size_t> set(n + 1);
-  std::iota(set.begin(), set.end(), std::size_t{0});
-  const auto root_of = [&set](std::size_t v) {
-    while (set[v] != v) v = set[v] = set[set[v]];
-    return v;
-  };
+  plan::Sets sets(n);
   std::vector<std::vector<MotionTree::Link>> neighbours(n + 1);
   MotionTree tree;
   const auto is_point = [&plan](int node) { return node >= 0 && plan.nodes[static_cast<std::size_t>(node)].is_point; };
@@ -70,8 +65,8 @@ MotionTree make_motion_tree(const plan::Plan& plan) {
     // A point that hung from another part would turn with it.
     if (is_point(edge.a) || is_point(edge.b)) continue;
     const std::size_t a = vertex(edge.a), b = vertex(edge.b);
-    if (root_of(a) == root_of(b)) continue;
-    set[root_of(a)] = root_of(b);
+    if (sets.of(a) == sets.of(b)) continue;
+    sets.join(a, b);
     const int section = edge.a < 0 || edge.b < 0 ? -1 : edge.section;
     neighbours[a].push_back({edge.a, edge.b, section, false});
     neighbours[b].push_back({edge.b, edge.a, section, true});

@@ -26,9 +26,9 @@ struct StoredPlace {
   std::uint64_t offset = 0;
 };
 
-/// A store is written by one process and may be read by any. A record is a line of JSON with the key of a case and names,
-/// sizes and hashes of files, followed by their bytes. An incomplete record, cut off by a kill, is recognised, and no position refers to
-/// it.
+/// A store is written by one process and may be read by any. A record is a line of JSON with the key of a case and
+/// names, sizes and hashes of files, followed by their bytes. An incomplete record, cut off by a kill, is recognised, and
+/// no position refers to it.
 class RunStore {
  public:
   /// The first store of the folder, store_000.pack, store_001.pack and so on, that no other process holds; it is held

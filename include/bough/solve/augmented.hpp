@@ -32,7 +32,7 @@ namespace bough::solve {
 ///
 /// P is penalty_factor times the interface's own stiffness |diag S|, unknown by unknown, so A is factored with its
 /// boundary last. p is penalty_factor: constraint rows have norm 1 where motion has diagonals near 1. Beyond these
-/// stiffnesses S = s^2 F^-1 - P loses a digit for each decade of the factor. Allocates in factor().
+/// stiffnesses S = s^2 F^-1 - P loses a digit for each decade of the factor. Allocates in factor() and in solve().
 class Augmented {
  public:
   Augmented(const blocks::BlockGraph& graph, const tree::Tree& tree, const SolveOptions& options = {});

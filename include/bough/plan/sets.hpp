@@ -1,5 +1,5 @@
 #pragma once
-/// Disjoint sets of nodes that become one. Internal to plan.
+/// Disjoint sets of the nodes of a plan, and of the ground.
 #include <numeric>
 #include <vector>
 
