@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "bough/elements/rows.hpp"
+#include "bough/plan/sets.hpp"
 #include "bough/plan/small_inverse.hpp"
 #include "geometry.hpp"
 #include "plan_builder.hpp"
-#include "bough/plan/sets.hpp"
 
 namespace bough::plan {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/plan/sets.hpp"
 #include "listed.hpp"
 #include "plan_builder.hpp"
-#include "bough/plan/sets.hpp"
 
 namespace bough::plan {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <span>
 
+#include "bough/plan/sets.hpp"
 #include "listed.hpp"
 #include "plan_builder.hpp"
-#include "bough/plan/sets.hpp"
 
 namespace bough::plan {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <set>
 
+#include "bough/plan/sets.hpp"
 #include "bough/scene/signals.hpp"
 #include "geometry.hpp"
 #include "plan_builder.hpp"
-#include "bough/plan/sets.hpp"
 
 namespace bough::plan {
 
