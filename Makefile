@@ -16,7 +16,7 @@ help:
 	@echo "make build      install what is missing, build the library and the program in build/release"
 	@echo "make test       build and run the unit and verification tests"
 	@echo "make bench      build and run the benchmarks"
-	@echo "make study      errors against run times of the standing set, one report with an index ($(STUDY)); a minute"
+	@echo "make study      errors against run times of the standing set, one report with an index ($(STUDY)); two minutes"
 	@echo "make stress     build and measure the stiff and extreme cases: build/stress/stress.html"
 	@echo "make fuzz       a million inputs for what batches read, with sanitizers (clang; minutes)"
 	@echo "make gallery    runs every scene of data/scenarios and data/gallery: build/gallery/index.html, with a view of each"

@@ -59,6 +59,8 @@ struct SweepArguments : CaseArguments {
 };
 struct ExportMatrixArguments {
   std::filesystem::path scene, out, rhs;  ///< out empty: ./<scene>.mtx; rhs empty: not written
+  std::string interface;                  ///< path of a sub-domain whose interface is written; empty: the tangent is
+  std::string matrix = "F";               ///< of the interface: F, S or P
   std::optional<long> step;
   std::optional<double> time;
   int threads = 0;

@@ -22,10 +22,6 @@ int profile(const ProfileArguments& arguments) {
   print_problems(arguments.scene, file, arguments.quiet);
   if (!file.ok()) return exit_bad_input;
   if (refuse_for_memory(arguments.scene, file.scene, arguments.memory_limit)) return exit_bad_input;
-  if (const std::string cause = study::cannot_profile(file.scene); !cause.empty()) {
-    std::cerr << "bough: " << file.scene.name << ": " << cause << "\n";
-    return exit_bad_input;
-  }
   const std::filesystem::path out =
       arguments.out.empty() ? std::filesystem::path(file.scene.name + ".profile") : arguments.out;
   const io::Owner owner{.verb = "profile", .source = arguments.scene, .replaces = arguments.replace};

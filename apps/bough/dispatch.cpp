@@ -218,11 +218,23 @@ void add_export_matrix(CLI::App& app, ExportMatrixArguments& a, int& code) {
       add_verb(app, "export-matrix", "Write the tangent of one step as a Matrix Market file",
                "  bough export-matrix four_bar.json --out four_bar.mtx --rhs four_bar_rhs.mtx\n"
                "  bough export-matrix four_bar.json --time 0.5\n"
-               "It is the matrix of the first Newton iteration of a step; the comments name the unknowns.\n"
+               "  bough export-matrix rod_chain.json --interface 0.1 --matrix F --out flexibility.npy\n"
+               "It is the matrix of the first Newton iteration of a step; the comments name the unknowns. Of the\n"
+               "interface of a sub-domain of the solver's tree: S, the sub-domain condensed to its interface, the\n"
+               "penalty P, and the flexibility F = (S + P)^-1, in the scene's units.\n"
                "Exit status: 0 written, 1 there is no such step or the run fails before it, 2 bad input.");
   verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
-  verb.add_option("--out", a.out, "Matrix to write (default: ./<scene>.mtx)")->type_name("FILE");
-  verb.add_option("--rhs", a.rhs, "Write the right-hand side, too")->type_name("FILE");
+  verb.add_option("--out", a.out, "Matrix to write; of an interface also .npy (default: ./<scene>.mtx)")
+      ->type_name("FILE");
+  CLI::Option* rhs = verb.add_option("--rhs", a.rhs, "Write the right-hand side, too")->type_name("FILE");
+  CLI::Option* interface = verb.add_option("--interface", a.interface,
+                                           "Path of a sub-domain, as 0.1: write a matrix of its "
+                                           "interface instead")
+                               ->type_name("PATH")
+                               ->excludes(rhs);
+  verb.add_option("--matrix", a.matrix, "Which one (default: F)")
+      ->check(CLI::IsMember({"F", "S", "P"}))
+      ->needs(interface);
   CLI::Option* step = verb.add_option("--step", a.step, "Number of the step (default: 1)")
                           ->type_name("N")
                           ->check(CLI::Range(1L, 1000000000L));

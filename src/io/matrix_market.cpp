@@ -41,11 +41,14 @@ std::string matrix_market_text(const SparseMatrix& matrix, const std::vector<std
   return text;
 }
 
-std::string matrix_market_text(const std::vector<double>& column, const std::vector<std::string>& comments) {
+std::string matrix_market_text(const std::vector<double>& values, const std::vector<std::string>& comments,
+                               std::size_t num_columns) {
   std::string text = head("array real general", comments);
-  append_count(text, column.size());
-  text += " 1\n";
-  for (double value : column) {
+  append_count(text, num_columns == 0 ? 0 : values.size() / num_columns);
+  text += ' ';
+  append_count(text, num_columns);
+  text += '\n';
+  for (const double value : values) {
     append_number(text, value);
     text += '\n';
   }

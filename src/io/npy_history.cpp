@@ -1,6 +1,7 @@
 #include "bough/io/npy_history.hpp"
 
 #include <bit>
+#include <cmath>
 #include <stdexcept>
 
 namespace bough::io {
@@ -24,6 +25,14 @@ std::string npy_head(std::size_t rows, std::size_t columns) {
   head += static_cast<char>(words.size() & 255u);
   head += static_cast<char>(words.size() >> 8u);
   return head + words;
+}
+
+std::string npy_square(const std::vector<double>& by_columns) {
+  const auto n = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(by_columns.size()))));
+  std::string bytes = npy_head(n, n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) put(bytes, by_columns[j * n + i]);
+  return bytes;
 }
 
 std::string repaired_npy(std::string bytes, std::size_t columns) {

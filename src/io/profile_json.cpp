@@ -1,5 +1,7 @@
 #include "bough/io/profile_json.hpp"
 
+#include <span>
+
 #include "bough/io/json_text.hpp"
 #include "bough/io/number_text.hpp"
 
@@ -20,6 +22,13 @@ void write_times(JsonText& json, const records::SubdomainTimes& t) {
   json.member("residual", t.residual);
   json.member("wait", t.wait);
   json.end_object();
+}
+
+void write_numbers(JsonText& json, const char* name, std::span<const double> numbers) {
+  json.key(name);
+  json.begin_array();
+  for (const double v : numbers) json.value(v);
+  json.end_array();
 }
 
 void write_subdomain(JsonText& json, const records::SubdomainProfile& s) {
@@ -44,10 +53,19 @@ void write_subdomain(JsonText& json, const records::SubdomainProfile& s) {
   write_times(json, s.times);
   json.member("subtree_seconds", s.subtree_seconds);
   json.member("path", s.path);
-  json.member("interface_force", s.force);
-  json.member("interface_moment", s.moment);
+  json.key("interface");
+  json.begin_array();
+  for (const records::InterfaceNode& n : s.nodes) {
+    json.begin_object();
+    json.member("node", n.name);
+    write_numbers(json, "place", n.place);
+    write_numbers(json, "force", n.force);
+    write_numbers(json, "moment", n.moment);
+    json.end_object();
+  }
+  json.end_array();
   json.member("condition", s.condition);
-  json.member("digits_lost", s.digits_lost());
+  write_numbers(json, "spectrum", s.spectrum);
   json.end_object();
 }
 
@@ -195,6 +213,7 @@ std::string profile_text(const records::Profile& p, std::string_view version) {
   json.member("title", std::string_view(p.title));
   json.member("version", version);
   json.member("cut", std::string_view(p.cut));
+  json.member("form", std::string_view(p.form));
   json.member("trouble", std::string_view(p.trouble));
   write_run(json, p);
   write_speed(json, p);

@@ -28,6 +28,8 @@ void StudyConverter::convert(const JsonValue& root) {
   spec.sample_interval = number_or(root, "sample_interval", 0.0);
   if (const Value* wanted = sound(root, "wanted"))
     for (const Value& w : wanted->items) spec.wanted.push_back(w.number);
+  if (const Value* figures = sound(root, "figures"))
+    for (const Value& f : figures->items) spec.figures.push_back(f.text);
   const std::optional<std::filesystem::path> scene_file = read_scene_file(root, spec.scene_text, spec.scene_name);
   if (!scene_file) return;
   spec.scene_folder = scene_file->parent_path();

@@ -282,6 +282,8 @@ Rule sensor_rule(const scene::SensorType& type) {
   } else if (type.of == SensorOf::subdomain) {
     fields.push_back(need("subdomain", text_rule(""),
                           "Its path in the tree of the solver: the number of the child at each level, as \"0.1\"."));
+    fields.push_back(may("at", named_rule("attachment"),
+                         "A node or body at its interface, or a point of it. Default: the resultant of all."));
   } else if (type.of == SensorOf::part) {
     fields.push_back(need("of", reference, "The prescribed motion, spring, bushing or load."));
   } else if (type.of != SensorOf::whole) {

@@ -118,6 +118,8 @@ RuleTable make_study_rules() {
        need("grids", array_rule("", named_rule("study_grid"), 1, 100), "The choices."),
        may("repetitions", integer_rule("", 1, 1000), "Timed runs of every choice.", "3"),
        may("time_limit", positive(""), "Of a run [s]; a longer one is a failure.", "120"),
+       may("figures", array_rule("", text_rule(""), 1, 100),
+           "Figures of the solver, as in summary.json, drawn over the abscissa of each grid.", "[]"),
        may("wanted", array_rule("", positive(""), 1, 100), "Errors for which the quickest choice is told.",
            "[1e-2, 1e-3, 1e-4, 1e-5, 1e-6]")}));
   return t;

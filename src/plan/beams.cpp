@@ -170,7 +170,10 @@ void Builder::add_sensors() {
       p.signal_unit = unit_of_signal.at(s.signal);
     }
     if (!s.part.empty()) p.elements = elements_with_force(s.part);
-    if (!s.subdomain.empty()) p.subdomain = scene::read_path(s.subdomain).value();
+    if (!s.subdomain.empty()) {
+      p.subdomain = scene::read_path(s.subdomain).value();
+      if (!s.at.to.empty()) p.port = port_at(s.at);
+    }
     if (p.beam < 0 && scene::type_of(s.kind).of == scene::SensorOf::point) p.port = port_at(s.at);
     p.frame = port_at(s.frame, Frame<double>::identity());
     for (const std::string& name : s.chain) p.chain.push_back(port_at(name, Frame<double>::identity()));

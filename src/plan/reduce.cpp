@@ -1,6 +1,7 @@
 /// Finds the invariant set of motions of a scene, which determines the unknowns of its nodes.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 #include "geometry.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 using Obstacle = std::optional<std::string>;  ///< reason against a set of motions, in words
 
-constexpr double small = 1e-12;  ///< relative difference that computed directions and positions may have by round-off
+constexpr double small = 1e-12;  ///< relative difference of computed directions and positions by round-off
 
 Vec3<double> linear(const Vec6<double>& v) { return lanes::linear_part(v); }
 Vec3<double> angular(const Vec6<double>& v) { return lanes::angular_part(v); }
@@ -42,9 +43,9 @@ Mat3<double> axes_with(int which, const Vec3<double>& direction) {
   return axes;
 }
 
-/// Whether a matrix of a section or body couples motions in the plane with those out of it; columns of axes: two along
-/// the plane, then the normal.
-bool couples(const Mat6<double>& m, const Mat3<double>& axes) {
+/// How strongly a matrix of a section or body couples motions in the plane with those out of it, relative to its
+/// diagonal entries; columns of axes: two along the plane, then the normal.
+double coupling_of(const Mat6<double>& m, const Mat3<double>& axes) {
   double turned[6][6], largest[2] = {0.0, 0.0};
   for (int p : {0, 3})
     for (int q : {0, 3}) {
@@ -57,92 +58,106 @@ bool couples(const Mat6<double>& m, const Mat3<double>& axes) {
     }
   for (int i = 0; i < 6; ++i) largest[i / 3] = std::max(largest[i / 3], std::abs(turned[i][i]));
   constexpr int inside[3] = {0, 1, 5}, outside[3] = {2, 3, 4};
+  double strongest = 0.0;
   for (int i : inside)
     for (int j : outside) {
-      const double scale = std::sqrt(largest[i / 3] * largest[j / 3]);
-      if (std::max(std::abs(turned[i][j]), std::abs(turned[j][i])) > small * scale) return true;
+      const double entry = std::max(std::abs(turned[i][j]), std::abs(turned[j][i]));
+      if (entry > 0.0) strongest = std::max(strongest, entry / std::sqrt(largest[i / 3] * largest[j / 3]));
     }
-  return false;
+  return strongest;
 }
 
 /// A set of motions, and the condition for elements to keep it: `against` returns the first reason against it.
 class Motion {
  public:
-  explicit Motion(const Builder& builder) : b_(builder), size_(builder.plan.length_scale) {}
+  Motion(const Builder& builder, double tolerance)
+      : b_(builder), size_(builder.plan.length_scale), tolerance_(tolerance) {}
   virtual ~Motion() = default;
+
+  /// Largest relative difference from the set that was met and tolerated.
+  double largest_difference() const { return largest_difference_; }
 
   virtual Motions kind() const = 0;
   virtual std::array<int, 6> components() const = 0;
   virtual int count() const = 0;
   virtual Mat3<double> axes() const = 0;  ///< columns of B, in the ground
 
-  virtual Obstacle against(const elements::RigidBody& e) const = 0;
-  virtual Obstacle against(const elements::Joint& e) const = 0;
-  virtual Obstacle against(const elements::Spring& e) const = 0;
-  virtual Obstacle against(const elements::Bushing& e) const = 0;
-  virtual Obstacle against(const elements::PointLoad& e) const = 0;
+  virtual Obstacle against(const elements::RigidBody& e) = 0;
+  virtual Obstacle against(const elements::Joint& e) = 0;
+  virtual Obstacle against(const elements::Spring& e) = 0;
+  virtual Obstacle against(const elements::Bushing& e) = 0;
+  virtual Obstacle against(const elements::PointLoad& e) = 0;
   template <int N>
-  Obstacle against(const elements::Beam<N>& e) const {
+  Obstacle against(const elements::Beam<N>& e) {
     Frame<double> pose[N];
     for (int i = 0; i < N; ++i) pose[i] = b_.initial_pose(e.ports[i]);
     return against_beam(pose, N, {&e.stiffness, &e.mass, &e.damping}, e.reference_strain, e.num_strain_points,
                         e.length);
   }
   template <int N>
-  Obstacle against(const elements::LineLoad<N>& e) const {
+  Obstacle against(const elements::LineLoad<N>& e) {
     return against_wrench(e.wrench, e.follows ? b_.initial_pose(e.ports[0]).R : Mat3<double>::identity());
   }
-  virtual Obstacle against_gravity() const = 0;
-  virtual Obstacle against_node(const NodePlan& node) const = 0;
+  virtual Obstacle against_gravity() = 0;
+  virtual Obstacle against_node(const NodePlan& node) = 0;
 
   /// Whether a row of a joint is an unknown. Precondition: there is no reason against the joint.
-  virtual bool keeps(const elements::Joint& e, int row) const = 0;
+  virtual bool keeps(const elements::Joint& e, int row) = 0;
 
  protected:
   virtual Obstacle against_beam(const Frame<double>* pose, int count, std::array<const Mat6<double>*, 3> section,
-                                const Vec6<double>* strain, int points, double length) const = 0;
-  virtual Obstacle against_wrench(const Vec6<double>& wrench, const Mat3<double>& axes) const = 0;
+                                const Vec6<double>* strain, int points, double length) = 0;
+  virtual Obstacle against_wrench(const Vec6<double>& wrench, const Mat3<double>& axes) = 0;
+
+  /// Whether a difference from the set is more than the tolerance; notes it otherwise.
+  bool exceeds(double difference, double scale = 1.0) {
+    if (!(difference <= tolerance_ * scale)) return true;
+    if (difference > 0.0) largest_difference_ = std::max(largest_difference_, difference / scale);
+    return false;
+  }
 
   const Builder& b_;
-  double size_;  ///< of the structure [m]
+  double size_;       ///< of the structure [m]
+  double tolerance_;  ///< relative
+  double largest_difference_ = 0.0;
 };
 
 /// Mirror symmetry about a plane: geometry, masses and loads are their own mirror images, so all forces out of the
 /// plane vanish.
 class InPlane final : public Motion {
  public:
-  InPlane(const Builder& builder, const Vec3<double>& normal)
-      : Motion(builder), normal_(normal), height_(lanes::dot(normal, builder.plan.nodes.front().pose.x)) {}
+  InPlane(const Builder& builder, const Vec3<double>& normal, double tolerance)
+      : Motion(builder, tolerance), normal_(normal), height_(lanes::dot(normal, builder.plan.nodes.front().pose.x)) {}
 
   Motions kind() const override { return Motions::planar; }
   std::array<int, 6> components() const override { return {0, 1, 5, 2, 3, 4}; }
   int count() const override { return 3; }
   Mat3<double> axes() const override { return axes_with(2, normal_); }
 
-  Obstacle against(const elements::RigidBody& e) const override {
+  Obstacle against(const elements::RigidBody& e) override {
     const Frame<double> pose = b_.initial_pose(e.ports[0]);
-    return couples(e.mass, axes_with(2, normal_in(pose)))
+    return exceeds(coupling_of(e.mass, axes_with(2, normal_in(pose))))
                ? Obstacle{"its mass is not symmetric about the plane (centre of mass, principal axes)"}
                : std::nullopt;
   }
-  Obstacle against(const elements::Spring& e) const override { return against_places(e.ports); }
-  Obstacle against(const elements::Bushing& e) const override {
+  Obstacle against(const elements::Spring& e) override { return against_places(e.ports); }
+  Obstacle against(const elements::Bushing& e) override {
     if (auto o = against_places(e.ports)) return o;
     const Vec3<double> a = normal_in(b_.initial_pose(e.ports[0]));  // the two frames are equal at the start
-    return couples(e.stiffness, axes_with(2, a)) || couples(e.damping, axes_with(2, a))
+    return exceeds(coupling_of(e.stiffness, axes_with(2, a))) || exceeds(coupling_of(e.damping, axes_with(2, a)))
                ? Obstacle{"its stiffness or damping couples motions in the plane with others"}
                : std::nullopt;
   }
-  Obstacle against(const elements::PointLoad& e) const override {
+  Obstacle against(const elements::PointLoad& e) override {
     if (auto o = against_places(e.ports)) return o;
     return against_wrench(e.wrench, e.follows ? b_.initial_pose(e.ports[0]).R : Mat3<double>::identity());
   }
-  Obstacle against(const elements::Joint& e) const override {
+  Obstacle against(const elements::Joint& e) override {
     if (auto o = against_places(e.ports)) return o;
     const Vec3<double> a = normal_in(b_.initial_pose(e.ports[0])), b = normal_in(b_.initial_pose(e.ports[1]));
     for (int k = 0; k < e.num_rows; ++k) {
       const elements::ConstraintRow& row = e.rows[k];
-      const bool upright = std::abs(std::abs(a[2]) - 1.0) < small && std::abs(a[2] - b[2]) < small;
+      const bool upright = along(a, 2) && along(b, 2) && a[2] * b[2] > 0.0;
       if (row.kind == RowKind::screw) return "it is a screw";
       if (row.kind == RowKind::angle && !upright) return "it holds or drives a rotation out of the plane";
       if (row.kind == RowKind::along && !along(a, row.i) && !beside(a, row.i)) return oblique();
@@ -160,65 +175,67 @@ class InPlane final : public Motion {
     }
     return std::nullopt;
   }
-  bool keeps(const elements::Joint& e, int k) const override {
+  bool keeps(const elements::Joint& e, int k) override {
     const elements::ConstraintRow& row = e.rows[k];
     const Vec3<double> a = normal_in(b_.initial_pose(e.ports[0])), b = normal_in(b_.initial_pose(e.ports[1]));
     if (row.kind == RowKind::along) return beside(a, row.i);
     if (row.kind == RowKind::across) return beside(a, row.i) && beside(b, row.j);
     return true;
   }
-  Obstacle against_gravity() const override {
-    return std::abs(lanes::dot(b_.plan.gravity, normal_)) > small * length_of(b_.plan.gravity)
+  Obstacle against_gravity() override {
+    return exceeds(std::abs(lanes::dot(b_.plan.gravity, normal_)), length_of(b_.plan.gravity))
                ? Obstacle{"gravity acts out of the plane"}
                : std::nullopt;
   }
-  Obstacle against_node(const NodePlan& node) const override {
+  Obstacle against_node(const NodePlan& node) override {
     if (is_outside(node.pose.x)) return "it lies outside the plane";
     const Vec3<double> v = node.pose.R * linear(node.twist), w = node.pose.R * angular(node.twist);
-    if (std::abs(lanes::dot(v, normal_)) > small * length_of(v)) return "it starts out of the plane";
-    if (length_of(lanes::cross(w, normal_)) > small * length_of(w)) return "it starts turning out of the plane";
+    if (exceeds(std::abs(lanes::dot(v, normal_)), length_of(v))) return "it starts out of the plane";
+    if (exceeds(length_of(lanes::cross(w, normal_)), length_of(w))) return "it starts turning out of the plane";
     return std::nullopt;
   }
 
  private:
   Vec3<double> normal_in(const Frame<double>& pose) const { return lanes::transpose_times(pose.R, normal_); }
-  static bool along(const Vec3<double>& normal, int axis) { return std::abs(std::abs(normal[axis]) - 1.0) < small; }
-  static bool beside(const Vec3<double>& normal, int axis) { return std::abs(normal[axis]) < small; }
+  bool along(const Vec3<double>& normal, int axis) {
+    return !exceeds(std::hypot(normal[(axis + 1) % 3], normal[(axis + 2) % 3]));
+  }
+  bool beside(const Vec3<double>& normal, int axis) { return !exceeds(std::abs(normal[axis])); }
   static Obstacle oblique() { return "its axes are oblique to the plane"; }
-  bool is_outside(const Vec3<double>& x) const { return std::abs(lanes::dot(x, normal_) - height_) > small * size_; }
+  bool is_outside(const Vec3<double>& x) { return exceeds(std::abs(lanes::dot(x, normal_) - height_), size_); }
   template <std::size_t N>
-  Obstacle against_places(const Port (&ports)[N]) const {
+  Obstacle against_places(const Port (&ports)[N]) {
     for (const Port& p : ports)
       if (is_outside(b_.initial_pose(p).x)) return "it takes hold outside the plane";
     return std::nullopt;
   }
   Obstacle against_beam(const Frame<double>* pose, int count, std::array<const Mat6<double>*, 3> section,
-                        const Vec6<double>* strain, int points, double length) const override {
+                        const Vec6<double>* strain, int points, double length) override {
     const Vec3<double> n = normal_in(pose[0]);
-    if (std::abs(n[0]) > small) return "its axis leaves the plane";
+    if (exceeds(std::abs(n[0]))) return "its axis leaves the plane";
     for (int i = 0; i < count; ++i) {
       if (is_outside(pose[i].x)) return "it lies outside the plane";
-      if (length_of(normal_in(pose[i]) - n) > small) return "it is twisted";
+      if (exceeds(length_of(normal_in(pose[i]) - n))) return "it is twisted";
     }
     const Mat3<double> axes = axes_with(2, n);
     for (std::size_t k = 0; k < section.size(); ++k) {
       if (is_same(*section[k], known_section_[k]) && is_same(axes, known_axes_[k])) continue;
-      if (couples(*section[k], axes)) return "its section couples bending in the plane with other strains";
+      if (exceeds(coupling_of(*section[k], axes))) return "its section couples bending in the plane with other strains";
       known_section_[k] = *section[k];
       known_axes_[k] = axes;
     }
     for (int g = 0; g < points; ++g) {
       const Vec3<double> kappa = angular(strain[g]);
-      if (std::abs(lanes::dot(linear(strain[g]), n)) > small ||
-          length * length_of(lanes::cross(kappa, n)) > small * std::max(1.0, length * length_of(kappa)))
+      if (exceeds(std::abs(lanes::dot(linear(strain[g]), n))) ||
+          exceeds(length * length_of(lanes::cross(kappa, n)), std::max(1.0, length * length_of(kappa))))
         return "it is bent out of the plane";
     }
     return std::nullopt;
   }
-  Obstacle against_wrench(const Vec6<double>& wrench, const Mat3<double>& axes) const override {
+  Obstacle against_wrench(const Vec6<double>& wrench, const Mat3<double>& axes) override {
     const Vec3<double> force = axes * linear(wrench), moment = axes * angular(wrench);
-    if (std::abs(lanes::dot(force, normal_)) > small * length_of(force)) return "its force acts out of the plane";
-    if (length_of(lanes::cross(moment, normal_)) > small * length_of(moment)) return "its moment acts out of the plane";
+    if (exceeds(std::abs(lanes::dot(force, normal_)), length_of(force))) return "its force acts out of the plane";
+    if (exceeds(length_of(lanes::cross(moment, normal_)), length_of(moment))) return "its moment acts out of the plane";
     return std::nullopt;
   }
 
@@ -230,35 +247,36 @@ class InPlane final : public Motion {
   Vec3<double> normal_;
   double height_;
   /// The last section, of stiffness, mass and damping, that couples nothing, and its axes: most beams have it, too.
-  mutable std::array<Mat6<double>, 3> known_section_{Mat6<double>::zero(), Mat6<double>::zero(), Mat6<double>::zero()};
-  mutable std::array<Mat3<double>, 3> known_axes_{Mat3<double>::zero(), Mat3<double>::zero(), Mat3<double>::zero()};
+  std::array<Mat6<double>, 3> known_section_{Mat6<double>::zero(), Mat6<double>::zero(), Mat6<double>::zero()};
+  std::array<Mat3<double>, 3> known_axes_{Mat3<double>::zero(), Mat3<double>::zero(), Mat3<double>::zero()};
 };
 
 /// All forces act at the origins of nodes, so that nothing rotates; optionally also along one line only.
 class OfPoints final : public Motion {
  public:
-  OfPoints(const Builder& builder, std::optional<Vec3<double>> line) : Motion(builder), line_(line) {}
+  OfPoints(const Builder& builder, std::optional<Vec3<double>> line, double tolerance)
+      : Motion(builder, tolerance), line_(line) {}
 
   Motions kind() const override { return line_ ? Motions::line : Motions::translation; }
   std::array<int, 6> components() const override { return {0, 1, 2, 3, 4, 5}; }
   int count() const override { return line_ ? 1 : 3; }
   Mat3<double> axes() const override { return line_ ? axes_with(0, *line_) : Mat3<double>::identity(); }
 
-  Obstacle against(const elements::RigidBody& e) const override {
+  Obstacle against(const elements::RigidBody& e) override {
     const double mass = std::abs(e.mass(0, 0));
     for (int i = 0; i < 3; ++i)
       for (int j = 3; j < 6; ++j)
-        if (std::abs(e.mass(i, j)) > small * mass * size_) return "its centre of mass is not at its frame's origin";
+        if (exceeds(std::abs(e.mass(i, j)), mass * size_)) return "its centre of mass is not at its frame's origin";
     return std::nullopt;
   }
-  Obstacle against(const elements::Spring& e) const override { return against_places(e.ports); }
-  Obstacle against(const elements::Bushing&) const override { return "it holds rotations"; }
-  Obstacle against(const elements::PointLoad& e) const override {
+  Obstacle against(const elements::Spring& e) override { return against_places(e.ports); }
+  Obstacle against(const elements::Bushing&) override { return "it holds rotations"; }
+  Obstacle against(const elements::PointLoad& e) override {
     if (auto o = against_places(e.ports)) return o;
     if (e.follows) return "it follows rotations";
     return against_wrench(e.wrench, Mat3<double>::identity());
   }
-  Obstacle against(const elements::Joint& e) const override {
+  Obstacle against(const elements::Joint& e) override {
     if (e.num_efforts > 0) return "forces act along its free motion";
     if (e.ports[0].node != elements::ground) return "it joins two bodies";
     const Mat3<double>& axes = b_.initial_pose(e.ports[0]).R;
@@ -269,21 +287,22 @@ class OfPoints final : public Motion {
       if (row.kind != RowKind::along && !is_between_points) return "it turns";
       if (auto o = against_places(e.ports)) return o;
       if (!line_ || is_between_points) continue;
-      const double part = std::abs(lanes::dot(*line_, axis_of(axes, row.i)));
-      if (part > small && std::abs(part - 1.0) > small) return "its axes are oblique to the line";
-      if (part <= small && row.law >= 0) return "it drives a motion off the line";
+      const Vec3<double> axis = axis_of(axes, row.i);
+      const bool is_across = !exceeds(std::abs(lanes::dot(*line_, axis)));
+      if (!is_across && exceeds(length_of(lanes::cross(*line_, axis)))) return "its axes are oblique to the line";
+      if (is_across && row.law >= 0) return "it drives a motion off the line";
     }
     return std::nullopt;
   }
-  bool keeps(const elements::Joint& e, int k) const override {
+  bool keeps(const elements::Joint& e, int k) override {
     if (motion::traits_of(e.rows[k].kind).is_between_points) return true;
     if (e.rows[k].kind != RowKind::along) return false;
     return !line_ || std::abs(lanes::dot(*line_, axis_of(b_.initial_pose(e.ports[0]).R, e.rows[k].i))) > 0.5;
   }
-  Obstacle against_gravity() const override {
+  Obstacle against_gravity() override {
     return is_off(b_.plan.gravity) ? Obstacle{"gravity acts off the line"} : std::nullopt;
   }
-  Obstacle against_node(const NodePlan& node) const override {
+  Obstacle against_node(const NodePlan& node) override {
     if (length_of(angular(node.twist)) > 0.0) return "it starts turning";
     if (line_ && is_off(node.pose.x - b_.plan.nodes.front().pose.x, size_)) return "it lies off the line";
     return is_off(node.pose.R * linear(node.twist)) ? Obstacle{"it starts off the line"} : std::nullopt;
@@ -291,23 +310,23 @@ class OfPoints final : public Motion {
 
  private:
   static Vec3<double> axis_of(const Mat3<double>& axes, int i) { return {{axes(0, i), axes(1, i), axes(2, i)}}; }
-  bool is_off(const Vec3<double>& v, double scale = 0.0) const {
-    return line_ && length_of(lanes::cross(v, *line_)) > small * std::max(scale, length_of(v));
+  bool is_off(const Vec3<double>& v, double scale = 0.0) {
+    return line_ && exceeds(length_of(lanes::cross(v, *line_)), std::max(scale, length_of(v)));
   }
   template <std::size_t N>
-  Obstacle against_places(const Port (&ports)[N]) const {
+  Obstacle against_places(const Port (&ports)[N]) {
     for (const Port& p : ports) {
-      if (p.node != elements::ground && p.has_offset && length_of(p.offset.x) > small * size_)
+      if (p.node != elements::ground && p.has_offset && exceeds(length_of(p.offset.x), size_))
         return "it takes hold beside the origin of a body's frame";
       if (is_off(b_.initial_pose(p).x - b_.plan.nodes.front().pose.x, size_)) return "it takes hold off the line";
     }
     return std::nullopt;
   }
   Obstacle against_beam(const Frame<double>*, int, std::array<const Mat6<double>*, 3>, const Vec6<double>*, int,
-                        double) const override {
+                        double) override {
     return "it bends";
   }
-  Obstacle against_wrench(const Vec6<double>& wrench, const Mat3<double>& axes) const override {
+  Obstacle against_wrench(const Vec6<double>& wrench, const Mat3<double>& axes) override {
     if (length_of(angular(wrench)) > 0.0) return "it has a moment";
     return is_off(axes * linear(wrench)) ? Obstacle{"it acts off the line"} : std::nullopt;
   }
@@ -320,7 +339,7 @@ struct Verdict {
   Obstacle obstacle;
   std::size_t passed = 0;
 };
-Verdict judge(const Builder& b, const Motion& motion) {
+Verdict judge(const Builder& b, Motion& motion) {
   Verdict v;
   for (const NodePlan& node : b.plan.nodes) {
     if (auto o = motion.against_node(node)) return {"'" + node.name + "': " + *o, v.passed};
@@ -402,7 +421,7 @@ std::optional<Vec3<double>> line_of(const Builder& b) {
   return (1.0 / length) * far;
 }
 
-void take(Builder& b, const Motion& motion) {
+void take(Builder& b, Motion& motion) {
   NodeUnknowns& u = b.plan.unknowns;
   u.motions = motion.kind();
   u.count = motion.count();
@@ -430,29 +449,68 @@ Obstacle general_obstacle(const Builder& b) {
   return std::nullopt;
 }
 
+/// Decimals with which a number was written, the fewest that give it: 0.25 has two. 16: more than fifteen.
+int decimals_of(double x) {
+  double power = 1.0;
+  for (int d = 0; d < 16; ++d, power *= 10.0)
+    if (std::round(x * power) / power == x) return d;
+  return 16;
+}
+
+/// Relative precision of places and directions whose numbers were written with six to twelve decimals, as programs
+/// write them: half a unit in the last place, of three coordinates, in places and in directions that turn with a place
+/// or an axis. 0: numbers with fewer decimals are meant as they stand, others have no precision but round-off.
+double written_precision(const scene::Scene& scene, double size, int& decimals) {
+  constexpr int fewest = 6, most = 12;
+  decimals = 0;
+  const auto look = [&decimals](const Vec3<double>& x) {
+    for (int i = 0; i < 3 && decimals <= most; ++i) decimals = std::max(decimals, decimals_of(x[i]));
+  };
+  for (const scene::Body& body : scene.bodies) look(body.placement.pose.x);
+  for (const scene::Node& node : scene.nodes) look(node.placement.pose.x);
+  look(scene.gravity);
+  if (decimals < fewest || decimals > most) return 0.0;
+  return 4.0 * std::pow(10.0, -decimals) * std::max(1.0, 1.0 / size);
+}
+
 }  // namespace
 
 void Builder::choose_unknowns() {
   const Obstacle general = general_obstacle(*this);
+  int decimals = 0;
+  const double precision = plan.precision = written_precision(scene, plan.length_scale, decimals);
   Motions before = Motions::spatial;
   const auto settle = [&](const char* name, const char* what, const char* why, const Obstacle& beforehand,
                           const std::vector<Vec3<double>>& directions, auto make) {
     std::string reason = beforehand.value_or("everything is at one place");
     bool holds = false;
-    std::size_t furthest = 0;
-    for (std::size_t k = 0; k < directions.size() && !beforehand && !holds; ++k) {
-      const auto motion = make(directions[k]);
-      const Verdict v = judge(*this, motion);
-      holds = !v.obstacle;
-      if (holds) {
-        reason = why;
-        if (!is_barred(name) && plan.unknowns.is_whole()) take(*this, motion);
-      } else if (k == 0 || v.passed > furthest) {  // the reason reported is that of the direction that passed most
-                                                   // elements
-        reason = *v.obstacle;
-        furthest = v.passed;
+    std::size_t furthest = 0, tried = 0;
+    const auto look = [&](double tolerance) {
+      for (std::size_t k = 0; k < directions.size() && !beforehand && !holds; ++k, ++tried) {
+        auto motion = make(directions[k], tolerance);
+        const Verdict v = judge(*this, motion);
+        holds = !v.obstacle;
+        if (holds) {
+          reason = why;
+          const bool is_taken = !is_barred(name) && plan.unknowns.is_whole();
+          if (is_taken) take(*this, motion);
+          if (is_taken && tolerance > small) {
+            char text[160];
+            std::snprintf(text, sizeof text,
+                          "places are written with %d decimals: within them, with differences of up to %.2g of "
+                          "the structure's size, ",
+                          decimals, motion.largest_difference());
+            plan.notes.push_back(text + std::string(why) + ", and are taken so");
+          }
+        } else if (tried == 0 || v.passed > furthest) {  // the reason reported is that of the direction that passed
+                                                         // most elements
+          reason = *v.obstacle;
+          furthest = v.passed;
+        }
       }
-    }
+    };
+    look(small);
+    if (precision > small) look(precision);
     const bool fewer = plan.unknowns.motions != before;
     if (holds && !fewer && !is_barred(name)) reason += "; but fewer unknowns are taken already";
     decide(name, what, fewer, reason);
@@ -469,19 +527,19 @@ void Builder::choose_unknowns() {
          "What leaves the line is not seen (springs under pressure that give way sideways); statics looks once, at its "
          "last equilibrium",
          "point masses, springs and loads lie on one line", general, lines,
-         [this](const Vec3<double>& d) { return OfPoints(*this, d); });
+         [this](const Vec3<double>& d, double tolerance) { return OfPoints(*this, d, tolerance); });
   settle("translation",
          "three unknowns a node, no rotations. Taken where only springs, forces and held displacements act, at the "
          "origins of nodes",
          "forces act at the origins of nodes only, so nothing turns", general, any,
-         [this](const Vec3<double>&) { return OfPoints(*this, std::nullopt); });
+         [this](const Vec3<double>&, double tolerance) { return OfPoints(*this, std::nullopt, tolerance); });
   settle("planar",
          "three unknowns a node, two displacements and a rotation. Taken where geometry, sections, masses, joints, "
          "loads and initial "
          "data are their own mirror images in one plane. What leaves the plane is not seen (buckling sideways, lateral "
          "torsional buckling); statics looks once, at its last equilibrium",
          "geometry, sections, masses, joints, loads and initial data are symmetric about one plane", general, planes,
-         [this](const Vec3<double>& n) { return InPlane(*this, n); });
+         [this](const Vec3<double>& n, double tolerance) { return InPlane(*this, n, tolerance); });
 }
 
 }  // namespace bough::plan

@@ -196,6 +196,8 @@ class Reducer {
       const Mat3<double> turned = (on_ground || p.has_offset ? p.offset.R : Mat3<double>::identity()) * B;
       const Mat3<double> Q = lanes::transpose_times(own, turned);
       at.R = {{Q(0, 0), Q(1, 0)}};
+      // Axes that are in the plane within the precision of the scene alone are not of unit length there.
+      if (b_.plan.precision > 0.0) at.R = (1.0 / lanes::length_of(at.R)) * at.R;
       if (std::abs(at.R[1]) <= round_off && at.R[0] > 0.0) at.R = {{1.0, 0.0}};
       r.has_offset |= at.R[1] != 0.0 || at.R[0] != 1.0;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bough::records {
 
@@ -23,7 +24,19 @@ void add(SubdomainTimes& sum, const SubdomainTimes& t) {
 
 }  // namespace
 
-double SubdomainProfile::digits_lost() const { return std::log10(condition); }
+namespace {
+
+double largest_of(const std::vector<InterfaceNode>& nodes, const double (InterfaceNode::*part)[3]) {
+  if (nodes.empty()) return std::numeric_limits<double>::quiet_NaN();
+  double most = 0.0;
+  for (const InterfaceNode& n : nodes) most = std::max(most, std::hypot((n.*part)[0], (n.*part)[1], (n.*part)[2]));
+  return most;
+}
+
+}  // namespace
+
+double SubdomainProfile::largest_force() const { return largest_of(nodes, &InterfaceNode::force); }
+double SubdomainProfile::largest_moment() const { return largest_of(nodes, &InterfaceNode::moment); }
 
 std::vector<LevelProfile> sum_levels(const std::vector<SubdomainProfile>& subdomains) {
   std::vector<LevelProfile> levels;

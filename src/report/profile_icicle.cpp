@@ -36,7 +36,8 @@ constexpr std::array<Measure, num_measures> measures{{
      [](const SubdomainProfile& s) { return static_cast<double>(s.interface_unknowns); }, io::amount_text},
     {"condition", "condition of the interface flexibility", [](const SubdomainProfile& s) { return s.condition; },
      io::amount_text},
-    {"force", "force at the interface [N]", [](const SubdomainProfile& s) { return s.force; }, io::amount_text},
+    {"force", "largest force at a node of the interface [N]",
+     [](const SubdomainProfile& s) { return s.largest_force(); }, io::amount_text},
 }};
 
 /// Range of a measure's colours, logarithmic.
@@ -71,11 +72,10 @@ std::string tip_of(const SubdomainProfile& s, int count) {
        io::seconds_text(times.backward) + ", check " + io::seconds_text(times.residual) + "\nsubtree " +
        io::seconds_text(s.subtree_seconds);
   if (s.num_in_visit > 1) t += "; in lockstep with " + std::to_string(s.num_in_visit - 1) + " others";
-  if (!std::isnan(s.condition))
-    t += "\ncondition " + io::rounded_text(s.condition, 3) + ", digits lost " + io::rounded_text(s.digits_lost(), 2);
-  if (!std::isnan(s.force))
-    t += "\nheld at the interface by " + io::rounded_text(s.force, 3) + " N and " + io::rounded_text(s.moment, 3) +
-         " N m";
+  if (!std::isnan(s.condition)) t += "\ncondition of the interface flexibility " + io::rounded_text(s.condition, 3);
+  if (!s.nodes.empty())
+    t += "\nheld at " + std::to_string(s.nodes.size()) + (s.nodes.size() == 1 ? " node" : " nodes") + " by up to " +
+         io::rounded_text(s.largest_force(), 3) + " N and " + io::rounded_text(s.largest_moment(), 3) + " N m";
   return t;
 }
 

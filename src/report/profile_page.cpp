@@ -6,6 +6,7 @@
 #include "bough/io/number_text.hpp"
 #include "bough/io/quantity_text.hpp"
 #include "bough/report/document.hpp"
+#include "profile_parts.hpp"
 
 namespace bough::report {
 
@@ -42,7 +43,7 @@ const std::vector<std::string> time_head = {"evaluate",        "assemble",   "fa
 void add_levels(Document& page, const Profile& p) {
   Table table{{"level", "sub-domains", "unknowns", "interface, most", "fill", "flops", "bytes"}, {}};
   table.head.insert(table.head.end(), time_head.begin(), time_head.end());
-  table.head.insert(table.head.end(), {"condition, most", "digits lost"});
+  table.head.insert(table.head.end(), {"condition, most"});
   for (const records::LevelProfile& l : p.levels) {
     const std::string source = "/levels/" + std::to_string(l.level);
     std::vector<Cell> row{count_cell(l.level, source + "/level"),
@@ -54,8 +55,6 @@ void add_levels(Document& page, const Profile& p) {
                           {bytes_text(l.bytes), Tone::plain, true, source + "/bytes"}};
     for (Cell& c : time_cells(l.times, source)) row.push_back(std::move(c));
     row.push_back(number_cell(l.condition_most, 3, source + "/condition_max"));
-    row.push_back(
-        {std::isnan(l.condition_most) ? "-" : io::rounded_text(std::log10(l.condition_most), 2), Tone::plain, true});
     table.rows.push_back(std::move(row));
   }
   table.caption = "Sums over the sub-domains of each level (wait: the longest). Level 0 is the root.";
@@ -73,7 +72,7 @@ void add_costliest(Document& page, const Profile& p) {
       {"sub-domain", "path", "level", "visit", "thread", "elements", "unknowns", "interface", "fill", "flops", "bytes"},
       {}};
   table.head.insert(table.head.end(), time_head.begin(), time_head.end());
-  table.head.insert(table.head.end(), {"condition", "digits lost", "force at the interface, N", "moment, N m"});
+  table.head.insert(table.head.end(), {"condition", "largest force at the interface, N", "moment, N m"});
   for (const records::SubdomainProfile* s : order) {
     const std::string source = "/sub_domains/" + std::to_string(s->id);
     std::vector<Cell> row{count_cell(s->id, source + "/id"),
@@ -89,15 +88,14 @@ void add_costliest(Document& page, const Profile& p) {
                           {bytes_text(s->bytes), Tone::plain, true, source + "/bytes"}};
     for (Cell& c : time_cells(s->times, source)) row.push_back(std::move(c));
     row.push_back(number_cell(s->condition, 3, source + "/condition"));
-    row.push_back(number_cell(s->digits_lost(), 3, source + "/digits_lost"));
-    row.push_back(number_cell(s->force, 3, source + "/interface_force"));
-    row.push_back(number_cell(s->moment, 3, source + "/interface_moment"));
+    row.push_back(number_cell(s->largest_force(), 3));
+    row.push_back(number_cell(s->largest_moment(), 3));
     table.rows.push_back(std::move(row));
   }
   table.caption =
       "The " + std::to_string(order.size()) + " of " + std::to_string(p.subdomains.size()) +
       " sub-domains that cost most; all of them are in profile.json. A sensor of kind interface_force takes their "
-      "path; force and moment, about the middle of the interface's nodes, are those of the last step.";
+      "path and a node; forces are those of the last step.";
   page.table(table);
 }
 
@@ -237,8 +235,8 @@ std::string profile_page(const Profile& p, const std::string& data) {
   if (root != nullptr)
     page.paragraph(std::to_string(root->subtree_unknowns) + " unknowns in " + std::to_string(p.subdomains.size()) +
                    " sub-domains on " + std::to_string(p.levels.size()) + " levels, " + std::to_string(p.num_in_lanes) +
-                   " of them in lockstep, in " + std::to_string(p.num_visits) + " visits (" + p.cut + "). " +
-                   std::to_string(p.steps) + (p.steps == 1 ? " step, " : " steps, ") +
+                   " of them in lockstep, in " + std::to_string(p.num_visits) + " visits (" + p.cut + "), form \"" +
+                   p.form + "\". " + std::to_string(p.steps) + (p.steps == 1 ? " step, " : " steps, ") +
                    std::to_string(p.factorizations) + " factorizations, " + std::to_string(p.threads) +
                    (p.threads == 1 ? " thread." : " threads."));
   page.section("Hierarchy", "hierarchy");
@@ -247,9 +245,12 @@ std::string profile_page(const Profile& p, const std::string& data) {
       "A row a level, the root on top; children share the width of their parent by unknowns. Rest the pointer on a "
       "sub-domain to read all of it.");
   page.section("Scene", "scene");
-  page.figure(subdomains_html(p),
-              "At the start; neighbours in colours that tell them apart. Circles are nodes of separators, the larger "
-              "the nearer to the root.");
+  page.figure(
+      subdomains_html(p),
+      "At the start; neighbours in colours that tell them apart. Circles are nodes of separators, the larger "
+      "the nearer to the root. Lines with a head are the forces on the sub-domains of the level at the nodes of "
+      "their interfaces at the last step, the longest drawn with 60 pixels; both sides of a cut are shown.");
+  add_interfaces(page, p);
   if (const std::string timeline = timeline_svg(p); !timeline.empty()) {
     page.section("Timeline", "timeline");
     page.figure(timeline, "Some steps after the first ones; trace.json holds " + std::to_string(p.events.size()) +
@@ -282,9 +283,10 @@ std::string profile_page(const Profile& p, const std::string& data) {
        "condense is the share of the elimination that updates the interface's own block, by flops; factor is the rest "
        "of the elimination.",
        "wait is from when the children of a sub-domain were factored until its own turn.",
-       "condition is that of the scaled interface flexibility; digits lost is its decimal logarithm. Interfaces "
-       "above " +
-           std::to_string(p.widest_condition) + " unknowns are left out."});
+       "condition is that of the scaled interface flexibility P^1/2 F P^1/2, F = (S + P)^-1. Interfaces above " +
+           std::to_string(p.widest_condition) +
+           " unknowns are left out. The form \"local\" computes neither F nor P: the condition says how well the "
+           "interface can be solved by itself, and no digit of the solution depends on it."});
   return page.html();
 }
 

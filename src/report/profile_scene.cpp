@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "bough/io/number_text.hpp"
 #include "bough/report/profile_page.hpp"
 #include "bough/report/projection.hpp"
 #include "profile_parts.hpp"
@@ -107,6 +108,47 @@ std::string nodes_svg(const Profile& p, const Sheet& sheet) {
   return body;
 }
 
+/// Forces at the interfaces of the sub-domains of each level, shown with it: what the rest exerts on a sub-domain, from
+/// the node on, the longest of the level with a length of its own.
+std::string forces_svg(const Profile& p, const Sheet& sheet, int last) {
+  constexpr double longest = 60.0;  // [px]
+  constexpr std::size_t most_arrows = 2000;
+  std::string body;
+  for (int level = 1; level <= last; ++level) {
+    double largest = 0.0;
+    std::size_t count = 0;
+    for (const records::SubdomainProfile& s : p.subdomains)
+      if (s.level == level && !s.nodes.empty()) {
+        largest = std::max(largest, s.largest_force());
+        count += s.nodes.size();
+      }
+    if (!(largest > 0.0) || count > most_arrows) continue;
+    body += "<g class=\"force-" + std::to_string(level) + "\">\n";
+    for (const records::SubdomainProfile& s : p.subdomains)
+      for (const records::InterfaceNode& n : s.nodes) {
+        if (s.level != level) continue;
+        const double size = std::hypot(n.force[0], n.force[1], n.force[2]);
+        std::array<double, 3> from{}, to{};
+        for (std::size_t k = 0; k < 3; ++k) {
+          from[k] = n.place[k];
+          to[k] = n.place[k] + (sheet.scale > 0.0 ? longest / sheet.scale * n.force[k] / largest : 0.0);
+        }
+        const Point2 a = sheet(from), b = sheet(to);
+        const std::string text = "<title>on sub-domain " + s.path + " at " + escaped(n.name) + ": (" +
+                                 io::rounded_text(n.force[0], 4) + ", " + io::rounded_text(n.force[1], 4) + ", " +
+                                 io::rounded_text(n.force[2], 4) + ") N, (" + io::rounded_text(n.moment[0], 4) + ", " +
+                                 io::rounded_text(n.moment[1], 4) + ", " + io::rounded_text(n.moment[2], 4) +
+                                 ") N m</title>";
+        body += "<line class=\"arrow\" x1=\"" + pixel(a.u) + "\" y1=\"" + pixel(a.v) + "\" x2=\"" + pixel(b.u) +
+                "\" y2=\"" + pixel(b.v) + "\">" + text + "</line>";
+        body += "<circle class=\"head\" cx=\"" + pixel(b.u) + "\" cy=\"" + pixel(b.v) + "\" r=\"" +
+                pixel(size > 0.0 ? 2.6 : 1.6) + "\">" + text + "</circle>\n";
+      }
+    body += "</g>\n";
+  }
+  return body;
+}
+
 }  // namespace
 
 std::string subdomains_html(const Profile& p) {
@@ -121,6 +163,7 @@ std::string subdomains_html(const Profile& p) {
   static constexpr const char* dark[] = {"#3987e5", "#d95926", "#199e70", "#9085e9", "#d55181", "#c98500"};
   std::string style =
       "<style>.scene path{fill:none;stroke-linecap:round;stroke-linejoin:round;stroke:#898781}"
+      ".scene g{display:none}.scene .arrow{stroke:#898781;stroke-width:1.4}.scene .head{fill:#898781}"
       ".scene .p0{stroke-width:2.5}.scene .p1{stroke-width:7;stroke-opacity:.7}.scene .p2{stroke-width:1.2}";
   std::string night;
   std::vector<std::pair<std::string, std::string>> choices;
@@ -133,6 +176,7 @@ std::string subdomains_html(const Profile& p) {
       style += rule + light[c] + "}";
       night += rule + dark[c] + "}";
     }
+    style += "#scene-" + std::to_string(level) + ":checked~svg .force-" + std::to_string(level) + "{display:inline}";
   }
   style += "@media (prefers-color-scheme:dark){" + night + "}</style>";
   std::string body = "<div class=\"scene\">" + style + "<span class=\"choose\">Sub-domains of </span>" +
@@ -149,7 +193,7 @@ std::string subdomains_html(const Profile& p) {
           " l" + std::to_string(level) + "-" + std::to_string(own[std::min(at(level), own.size() - 1)] % num_colors);
     for (std::size_t kind : {2u, 1u, 0u}) body += path_element("p" + std::to_string(kind) + classes, data[kind]);
   }
-  return body + nodes_svg(p, sheet) + "</svg></div>\n";
+  return body + nodes_svg(p, sheet) + forces_svg(p, sheet, last) + "</svg></div>\n";
 }
 
 }  // namespace bough::report

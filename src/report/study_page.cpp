@@ -171,9 +171,27 @@ class StudyPage {
         }
       charts.push_back(std::move(chart));
     }
+    for (const std::string& figure : r_.spec.figures) add_figure(figure, g, charts);
     page_.charts(charts);
     orders(g);
     runs(g);
+  }
+
+  /// A figure of the solver over the abscissa, if a run of the grid has it.
+  void add_figure(const std::string& figure, std::size_t g, std::vector<Chart>& charts) const {
+    const io::StudyAxis& axis = r_.spec.grids[g].axes[r_.spec.grids[g].abscissa];
+    Chart chart{figure, {axis.name + axis_unit(axis.name), Scale::log}, {figure, Scale::log}, {}};
+    for (std::size_t s = 0; s < r_.series.size(); ++s) {
+      if (r_.series[s].grid != g) continue;
+      ChartSeries series{r_.series[s].label, {}, {}, static_cast<int>(s)};
+      for (const std::size_t k : r_.series[s].runs)
+        if (const double value = r_.runs[k].figure(figure); is_ok(r_.runs[k]) && std::isfinite(value))
+          series.points.push_back({r_.runs[k].abscissa, value,
+                                   full_label(r_.runs[k]) + ": " + io::rounded_text(value, 3),
+                                   run_pointer(k) + "/solver/" + figure});
+      if (!series.points.empty()) chart.series.push_back(std::move(series));
+    }
+    if (!chart.series.empty()) charts.push_back(std::move(chart));
   }
 
   /// A line with the theoretical slope, a little below the finest error of the fit.
@@ -228,6 +246,7 @@ class StudyPage {
     page_.subsection("Runs");
     Table table{{"choices"}, {}};
     for (const io::StudyQuantity& q : r_.spec.quantities) table.head.push_back("error of " + q.name);
+    for (const std::string& figure : r_.spec.figures) table.head.push_back(figure);
     for (const char* name : {"time [s]", "from", "to", "steps", "rejected", "Newton", "factorizations"})
       table.head.emplace_back(name);
     for (std::size_t k = 0; k < r_.runs.size(); ++k) {
@@ -237,6 +256,8 @@ class StudyPage {
       std::vector<Cell> row{{run.label + (is_ok(run) ? "" : " (failed)"), is_ok(run) ? Tone::plain : Tone::bad}};
       for (std::size_t q = 0; q < run.errors.size(); ++q)
         row.push_back(measured(run.errors[q].max, 3, error_pointer(k, q, "max")));
+      for (const std::string& figure : r_.spec.figures)
+        row.push_back(measured(run.figure(figure), 3, at + "/solver/" + figure));
       const study::Spread wall = study::spread_of(run.wall);
       row.push_back(measured(wall.median, 3, at + "/seconds/median"));
       row.push_back(measured(wall.low, 3, at + "/seconds/low"));

@@ -55,27 +55,23 @@ tree::SubdomainId subdomain_at(const tree::Tree& tree, std::span<const int> path
   return s;
 }
 
-Vec6<double> eval_interface_force(const step::System& system, const step::State& state, const Field& field,
-                                  tree::SubdomainId subdomain) {
+std::vector<InterfaceForce> eval_interface_forces(const step::System& system, const step::State& state,
+                                                  const Field& field, tree::SubdomainId subdomain) {
   const plan::Plan& plan = system.plan();
   const tree::Tree& tree = system.linear().tree();
   const tree::Subdomain& sub = tree.subdomains[static_cast<std::size_t>(subdomain)];
-  const std::vector<int> interface = nodes_of(system, sub);
-  const auto is_in_interface = [&](const Port& p) {
-    return p.node != elements::ground && std::binary_search(interface.begin(), interface.end(), p.node);
+  std::vector<InterfaceForce> forces;
+  for (const int node : nodes_of(system, sub)) forces.push_back({.node = node});
+  const auto place_of = [&forces](const Port& p) {
+    const auto at = std::lower_bound(forces.begin(), forces.end(), p.node,
+                                     [](const InterfaceForce& f, int node) { return f.node < node; });
+    return p.node != elements::ground && at != forces.end() && at->node == p.node ? &*at : nullptr;
   };
-  const auto place_of = [&](int node) {
-    const auto& x = field.nodes[node].x;
-    return Vec3<double>(x.hi + x.lo);
-  };
-  Vec3<double> middle = Vec3<double>::zero();
-  for (const int node : interface) middle += (1.0 / static_cast<double>(interface.size())) * place_of(node);
-  Vec3<double> force = Vec3<double>::zero(), moment = force;
   for (const int element : tree.elements(sub)) {
     const auto id = static_cast<std::size_t>(element);
     if (id >= plan.directory.size()) continue;  // the equation of a signal
     plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
-      if (std::none_of(std::begin(e.ports), std::end(e.ports), is_in_interface)) return;
+      if (std::none_of(std::begin(e.ports), std::end(e.ports), place_of)) return;
       const int joint = plan.joint_of_element[id];
       const double* multipliers =
           joint < 0 ? nullptr
@@ -86,16 +82,29 @@ Vec6<double> eval_interface_force(const step::System& system, const step::State&
       const double* wrench = residual.data();
       for (const Port& port : e.ports) {
         if (port.node == elements::ground) continue;
-        if (is_in_interface(port)) {
+        if (InterfaceForce* const to = place_of(port)) {
           const motion::Mat3<double>& R = field.nodes[port.node].R;
-          const Vec3<double> f = R * Vec3<double>{{wrench[0], wrench[1], wrench[2]}};
-          force += f;
-          moment += R * Vec3<double>{{wrench[3], wrench[4], wrench[5]}} +
-                    lanes::cross(Vec3<double>(place_of(port.node) - middle), f);
+          to->wrench += lanes::join(Vec3<double>(R * Vec3<double>{{wrench[0], wrench[1], wrench[2]}}),
+                                    Vec3<double>(R * Vec3<double>{{wrench[3], wrench[4], wrench[5]}}));
         }
         wrench += 6;
       }
     });
+  }
+  return forces;
+}
+
+Vec6<double> resultant_of(std::span<const InterfaceForce> forces, const Field& field) {
+  const auto place_of = [&field](int node) {
+    const auto& x = field.nodes[node].x;
+    return Vec3<double>(x.hi + x.lo);
+  };
+  Vec3<double> middle = Vec3<double>::zero(), force = middle, moment = middle;
+  for (const InterfaceForce& f : forces) middle += (1.0 / static_cast<double>(forces.size())) * place_of(f.node);
+  for (const InterfaceForce& f : forces) {
+    const Vec3<double> part = lanes::linear_part(f.wrench);
+    force += part;
+    moment += lanes::angular_part(f.wrench) + lanes::cross(Vec3<double>(place_of(f.node) - middle), part);
   }
   return lanes::join(force, moment);
 }
@@ -153,10 +162,34 @@ PartForce eval_part_force(const step::System& system, const step::State& state, 
   return force;
 }
 
+namespace {
+
+/// What is wrong with the place of a sensor at the interface of its sub-domain; empty: nothing is.
+std::string no_place_at(const step::System& system, const plan::SensorPlan& s, tree::SubdomainId subdomain) {
+  const tree::Tree& tree = system.linear().tree();
+  if (s.sensor.at.to.empty() || subdomain == tree.root()) return "";
+  const std::vector<int> nodes = nodes_of(system, tree.subdomains[static_cast<std::size_t>(subdomain)]);
+  if (std::binary_search(nodes.begin(), nodes.end(), s.port.node)) return "";
+  constexpr std::size_t most_named = 8;
+  std::string names;
+  for (std::size_t k = 0; k < std::min(nodes.size(), most_named); ++k)
+    names += (k == 0 ? "'" : ", '") + system.plan().nodes[static_cast<std::size_t>(nodes[k])].name + "'";
+  if (nodes.size() > most_named) names += " and " + std::to_string(nodes.size() - most_named) + " more";
+  return "'" + s.sensor.at.to + "' is not at the interface of sub-domain " + s.sensor.subdomain +
+         ", which has the node" + (nodes.size() == 1 ? " " : "s ") + names;
+}
+
+}  // namespace
+
 std::optional<std::string> unknown_subdomain(const step::System& system) {
   const tree::Tree& tree = system.linear().tree();
   for (const plan::SensorPlan& s : system.plan().sensors) {
-    if (s.subdomain.empty() || subdomain_at(tree, s.subdomain) != tree::none) continue;
+    if (s.subdomain.empty()) continue;
+    if (const tree::SubdomainId found = subdomain_at(tree, s.subdomain); found != tree::none) {
+      if (const std::string wrong = no_place_at(system, s, found); !wrong.empty())
+        return "sensor '" + s.sensor.name + "': " + wrong;
+      continue;
+    }
     std::span<const int> known = s.subdomain;
     while (subdomain_at(tree, known) == tree::none) known = known.first(known.size() - 1);
     std::string path;

@@ -92,6 +92,26 @@ void append_reaction(const Look& look, const SensorPlan& s, Values& to) {
                  : turned(lanes::transpose_times(motion_of_port(s.frame, look.field).pose.R, R), wrench));
 }
 
+/// Of one node about the sensor's point, or the resultant.
+void append_interface_force(const Look& look, const SensorPlan& s, Values& to) {
+  const std::vector<InterfaceForce> forces = eval_interface_forces(
+      look.system, look.state, look.field, subdomain_at(look.system.linear().tree(), s.subdomain));
+  const bool is_whole = s.sensor.at.to.empty();
+  Vec6<double> wrench = is_whole ? resultant_of(forces, look.field) : Vec6<double>::zero();
+  const Frame<double> at = is_whole ? Frame<double>::identity() : motion_of_port(s.port, look.field).pose;
+  for (const InterfaceForce& f : forces) {
+    if (is_whole || f.node != s.port.node) continue;
+    const auto& x = look.field.nodes[f.node].x;
+    const Vec3<double> force = lanes::linear_part(f.wrench);
+    wrench = lanes::join(
+        force, Vec3<double>(lanes::angular_part(f.wrench) + lanes::cross(Vec3<double>(x.hi + x.lo - at.x), force)));
+  }
+  const motion::Mat3<double> seen = s.sensor.axes == scene::LoadAxes::body ? at.R
+                                    : s.sensor.frame.empty()               ? motion::Mat3<double>::identity()
+                                                                           : motion_of_port(s.frame, look.field).pose.R;
+  append(to, turned(lanes::transpose(seen), wrench));
+}
+
 /// What acts on the second along a coordinate of a joint.
 double effort_of(const Look& look, const SensorPlan& s) {
   const plan::EffortPlan& read = s.effort;
@@ -165,11 +185,7 @@ constexpr Kernel kernels[] = {
     {acceleration_split, [](Look& l, const SensorPlan& s, Values& to) { append_split(l, s, to); }},
     {relative_position, [](Look& l, const SensorPlan& s, Values& to) { append(to, l.point(s).pose.x); }},
     {signal, [](Look& l, const SensorPlan& s, Values& to) { to.push_back(l.field.around.laws[s.signal]); }},
-    {interface_force,
-     [](Look& l, const SensorPlan& s, Values& to) {
-       append(to,
-              eval_interface_force(l.system, l.state, l.field, subdomain_at(l.system.linear().tree(), s.subdomain)));
-     }},
+    {interface_force, [](Look& l, const SensorPlan& s, Values& to) { append_interface_force(l, s, to); }},
     {scene::SensorKind::force,
      [](Look& l, const SensorPlan& s, Values& to) {
        const PartForce force = eval_part_force(l.system, l.state, l.field, s.elements);

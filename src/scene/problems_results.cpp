@@ -88,6 +88,10 @@ void check_sensor(ProblemList& list, std::size_t i) {
     if (!read_path(s.subdomain))
       list.add("sensors", i, "subdomain", s.subdomain, "is no path in the tree of sub-domains",
                "write the number of the child at each level, as \"0\" or \"0.1\"");
+    if (!s.at.to.empty()) list.check_place("sensors", i, "at", s.at.to, true);
+    if (s.at.to.empty() && s.axes == LoadAxes::body)
+      list.add("sensors", i, "axes", "body", "the resultant of an interface belongs to no body",
+               "give the node with \"at\", or leave \"axes\" out");
     return;
   }
   if (type.of == SensorOf::point && s.beam.empty()) {

@@ -118,14 +118,11 @@ std::vector<SensorType> make_types() {
        {F::axes_of},
        "Position of a point from the origin of another part, in the axes of that part, which is given as `frame`."},
       {SensorKind::signal, "signal", SensorOf::signal, force, in("its own", {""}), {}, "Value of a signal."},
-      {SensorKind::interface_force,
-       "interface_force",
-       subdomain,
-       force,
-       in("N", {"fx", "fy", "fz"}) + in("N m", {"mx", "my", "mz"}),
-       {},
-       "Force of the rest of the structure on a sub-domain of the solver's tree at its interface, and its moment about "
-       "the mean position of the interface's nodes, in the ground's axes."},
+      {SensorKind::interface_force, "interface_force", subdomain, force,
+       in("N", {"fx", "fy", "fz"}) + in("N m", {"mx", "my", "mz"}), seen,
+       "Wrench of the rest of the structure on a sub-domain of the solver's tree at one node of its interface, the "
+       "local "
+       "Lagrange multipliers there; without `at` the resultant at all nodes, about their mean position."},
       {SensorKind::force, "force", SensorOf::part, SensorShows::force,
        in("N", {"fx", "fy", "fz"}) + in("N m", {"mx", "my", "mz"}), seen,
        "Wrench of a prescribed motion or a load on its part, at the place where it acts (of a line load "

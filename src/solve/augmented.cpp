@@ -350,6 +350,9 @@ SolveReport Augmented::solve(const tree::Walker& walker, const double* rhs, doub
   return report;
 }
 
+std::span<const double> Augmented::column_scale() const { return state_->scales.column; }
+std::span<const double> Augmented::row_scale() const { return state_->scales.row; }
+
 SolverCounters Augmented::counters() const {
   const State& s = *state_;
   SolverCounters c = s.counters;
@@ -364,7 +367,7 @@ SolverCounters Augmented::counters() const {
   return c;
 }
 
-std::vector<InterfaceReport> Augmented::interfaces(int widest) const {
+std::vector<InterfaceReport> Augmented::interfaces(int widest, bool keeps_matrices) const {
   const State& s = *state_;
   std::vector<InterfaceReport> reports;
   if (s.counters.factorizations == 0) return reports;
@@ -377,11 +380,12 @@ std::vector<InterfaceReport> Augmented::interfaces(int widest) const {
     const auto n = static_cast<int>(f.tied.size());
     if (n > widest) report.condition = std::numeric_limits<double>::quiet_NaN();
     if (n <= widest && !f.failed) {
-      report.condition = condition_of_flexibility(f.stiffened.penalty, f.flexibility);
       Matrix S(n, n);
       for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) S(i, j) = s.fronts.condensed(id, f.tied[at(i)], f.tied[at(j)]);
-      report.is_definite = is_definite(S);
+      const double unit = 1.0 / (s.options.multiplier_scale * s.options.multiplier_scale);
+      report_flexibility(S, f.stiffened.penalty, unit * f.flexibility, keeps_matrices, report);
+      for (int i = 0; keeps_matrices && i < n; ++i) report.matrices.unknowns.push_back(f.column[at(f.tied[at(i)])]);
     }
     reports.push_back(report);
   }

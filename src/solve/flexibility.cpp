@@ -30,20 +30,25 @@ StiffenedInterface stiffen(const Eigen::MatrixXd& S, double penalty_factor) {
   }
 }
 
-double condition_of_flexibility(const Eigen::VectorXd& penalty, const Eigen::MatrixXd& flexibility) {
-  if (penalty.size() == 0) return 1.0;
+void report_flexibility(const Eigen::MatrixXd& S, const Eigen::VectorXd& penalty, const Eigen::MatrixXd& flexibility,
+                        bool keeps_matrices, InterfaceReport& report) {
+  if (penalty.size() == 0) return;
   const Eigen::VectorXd root = penalty.cwiseSqrt();
   const Eigen::MatrixXd scaled = root.asDiagonal() * flexibility * root.asDiagonal();
-  if (!scaled.allFinite()) return std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd values = singular_values(scaled);
-  return values(0) / values(values.size() - 1);
-}
-
-bool is_definite(const Eigen::MatrixXd& S) {
+  if (scaled.allFinite()) {
+    const Eigen::VectorXd values = singular_values(scaled);
+    report.spectrum.assign(values.begin(), values.end());
+    report.condition = values(0) / values(values.size() - 1);
+  } else {
+    report.condition = std::numeric_limits<double>::infinity();
+  }
   constexpr double round_off = 1e-12;
-  if (S.size() == 0) return true;
-  const Eigen::VectorXd values = symmetric_eigenvalues(0.5 * (S + S.transpose()));
-  return values(0) >= -round_off * values.cwiseAbs().maxCoeff();
+  const Eigen::VectorXd stiffnesses = symmetric_eigenvalues(0.5 * (S + S.transpose()));
+  report.is_definite = stiffnesses(0) >= -round_off * stiffnesses.cwiseAbs().maxCoeff();
+  if (!keeps_matrices) return;
+  report.matrices.stiffness.assign(S.data(), S.data() + S.size());
+  report.matrices.penalty.assign(penalty.begin(), penalty.end());
+  report.matrices.flexibility.assign(flexibility.data(), flexibility.data() + flexibility.size());
 }
 
 }  // namespace bough::solve

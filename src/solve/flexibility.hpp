@@ -3,6 +3,8 @@
 /// scaled variables. Internal to solve.
 #include <Eigen/LU>
 
+#include "bough/solve/report.hpp"
+
 namespace bough::solve {
 
 /// The last block of the factor of an augmented sub-domain A = K + B^T P B, which belongs to its boundary.
@@ -16,10 +18,9 @@ struct StiffenedInterface {
 /// stiffness.
 StiffenedInterface stiffen(const Eigen::MatrixXd& S, double penalty_factor);
 
-/// Condition number of P^1/2 F P^1/2 (2-norm); 1 without unknowns.
-double condition_of_flexibility(const Eigen::VectorXd& penalty, const Eigen::MatrixXd& flexibility);
-
-/// Whether the symmetric part of S has no negative eigenvalue beyond round-off.
-bool is_definite(const Eigen::MatrixXd& S);
+/// Completes a report: the singular values of P^1/2 F P^1/2, their ratio, whether the symmetric part of S has no negative
+/// eigenvalue beyond round-off, and the matrices, if they are kept (with s = 1).
+void report_flexibility(const Eigen::MatrixXd& S, const Eigen::VectorXd& penalty, const Eigen::MatrixXd& flexibility,
+                        bool keeps_matrices, InterfaceReport& report);
 
 }  // namespace bough::solve

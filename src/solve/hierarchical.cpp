@@ -21,6 +21,7 @@ std::vector<std::string> problems_in(const SolveOptions& o) {
   need(o.pivot_threshold > 0.0 && o.pivot_threshold <= 1.0, "pivot_threshold: must be in (0, 1]");
   need(o.tiny_pivot > 0.0 && o.tiny_pivot < 1.0, "tiny_pivot: must be in (0, 1)");
   need(o.rank_tolerance > 0.0 && o.rank_tolerance < 1.0, "rank_tolerance: must be in (0, 1)");
+  need(o.data_precision >= 0.0 && o.data_precision <= 1e-3, "data_precision: must be in [0, 1e-3]");
   need(o.singular_tolerance > 0.0 && o.singular_tolerance < 1.0, "singular_tolerance: must be in (0, 1)");
   need(o.null_motion_tolerance > 0.0 && o.null_motion_tolerance < 1.0, "null_motion_tolerance: must be in (0, 1)");
   need(o.near_bytes >= 0, "near_bytes: must be >= 0");

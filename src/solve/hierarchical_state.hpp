@@ -267,6 +267,7 @@ struct Hierarchical::State {
   void leave_out_zeros(ElementStore::Errors& errors, SolveReport& report);
   void make_consistent(SolveReport& report);
   // local_null_space.cpp
+  double uncertain_entry() const;
   void decide_dependent(tree::FrontId f);
   bool find_local_null_vectors();
   void find_local_left_vectors();
@@ -278,7 +279,7 @@ struct Hierarchical::State {
   double add_negligible_part();
   // interfaces.cpp
   void copy_schur(tree::FrontId f, double* to);
-  InterfaceReport report_interface(tree::SubdomainId s, int widest);
+  InterfaceReport report_interface(tree::SubdomainId s, int widest, bool keeps_matrices);
 
   const tree::Front& front(tree::FrontId f) const { return tree.fronts[static_cast<std::size_t>(f)]; }
   FrontData& data(tree::FrontId f) { return fronts[static_cast<std::size_t>(f)]; }

@@ -41,7 +41,7 @@ void Hierarchical::State::copy_schur(tree::FrontId f, double* to) {
 }
 
 /// At the end of the visit of a sub-domain.
-InterfaceReport Hierarchical::State::report_interface(tree::SubdomainId s, int widest) {
+InterfaceReport Hierarchical::State::report_interface(tree::SubdomainId s, int widest, bool keeps_matrices) {
   const tree::Subdomain& sub = tree.subdomains[at(s)];
   const tree::FrontId top = sub.top();
   const int n = front(top).num_boundary;
@@ -55,21 +55,24 @@ InterfaceReport Hierarchical::State::report_interface(tree::SubdomainId s, int w
   std::vector<Eigen::Index> tied;  // multipliers belong to the interface mesh
   Eigen::Index row = 0;
   for_boundary(top, [&](int, std::size_t u) {
-    if (!is_constraint[u]) tied.push_back(row);
+    if (!is_constraint[u]) {
+      tied.push_back(row);
+      if (keeps_matrices) report.matrices.unknowns.push_back(static_cast<std::int64_t>(u));
+    }
     ++row;
   });
+  if (tied.empty()) return report;
   const StiffenedInterface stiffened = stiffen(S(tied, tied), options.penalty_factor);
-  report.is_definite = is_definite(S(tied, tied));
-  if (!tied.empty()) report.condition = condition_of_flexibility(stiffened.penalty, stiffened.factor.inverse());
+  report_flexibility(S(tied, tied), stiffened.penalty, stiffened.factor.inverse(), keeps_matrices, report);
   return report;
 }
 
-std::vector<InterfaceReport> Hierarchical::interfaces(const tree::Walker& walker, int widest) {
+std::vector<InterfaceReport> Hierarchical::interfaces(const tree::Walker& walker, int widest, bool keeps_matrices) {
   State& s = *state_;
   std::vector<InterfaceReport> reports(at(s.tree.root()));
   auto look = [&](int group) {
     for (const tree::SubdomainId id : s.lanes.groups[at(group)].subdomains)
-      if (id != s.tree.root()) reports[at(id)] = s.report_interface(id, widest);
+      if (id != s.tree.root()) reports[at(id)] = s.report_interface(id, widest, keeps_matrices);
   };
   const SolverCounters counted = s.counters;
   const bool scales_wanted = std::exchange(s.scales_wanted, false);

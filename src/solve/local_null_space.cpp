@@ -18,14 +18,24 @@ constexpr double round_off = 4e-16;
 
 }  // namespace
 
+/// Condensed entries of multipliers up to this may be what the precision of the data leaves over of rows that depend on
+/// each other: it grows in the elimination. Whether rows depend is asked of the rows themselves, in
+/// are_dependent_rows(). 0: the data are exact.
+double Hierarchical::State::uncertain_entry() const {
+  constexpr double growth = 1e3, largest = 1e-3;
+  return std::min(largest, growth * options.data_precision);
+}
+
 /// Decides rows and columns of multipliers that are negligible in what remains of the front. They are complete, since
 /// only descendants take part in them, so they depend on rows below for any values of the matrix elsewhere.
 void Hierarchical::State::decide_dependent(tree::FrontId f) {
   FrontData& d = data(f);
   if (d.pivots == d.full || leaves_to_root[at(f)] != 0) return;
-  constexpr double share = 1e-2;  // couplings with the boundary are of first order in what keeps rows from depending
+  // Couplings with the boundary are of first order in what keeps rows from depending.
+  constexpr double round_off_of_couplings = 1e-12;
+  const double uncertain = uncertain_entry(), coupling = std::max(round_off_of_couplings, uncertain);
   FrontMatrix matrix = d.matrix();
-  d.dependent = move_negligible_last(matrix, d.pivots, {options.rank_tolerance, share * options.rank_tolerance},
+  d.dependent = move_negligible_last(matrix, d.pivots, {std::max(options.rank_tolerance, uncertain), coupling},
                                      is_constraint.get());
   // The root takes singular values of all that remains if some of it is not negligible.
   if (f + 1 == tree.num_fronts() && d.num_delayed() > 0) d.dependent = 0;
@@ -196,6 +206,7 @@ bool Hierarchical::State::are_dependent_rows(int count) {
   for (const tree::FrontId f : s.passed)
     for (int p = front(f).element_begin; p < front(f).element_end; ++p)
       add_constraint_forces(tree.element_order[at(p)], count);
+  constexpr double units = 1024.0;  // of the data's precision: the sum of many entries
   std::array<double, most> largest{};
   const std::span<const double> forces = s.forces.values();
   for (std::size_t k = 0; k < s.forces.unknowns().size(); ++k)
@@ -204,6 +215,7 @@ bool Hierarchical::State::are_dependent_rows(int count) {
     for (std::size_t v = 0; v < at(count); ++v) {
       const double sum = forces[k * 2 * most + v], magnitude = forces[k * 2 * most + most + v];
       if (!(std::abs(sum) <= passing_force * std::max(magnitude, insignificant_force * largest[v]))) return false;
+      if (options.data_precision > 0.0 && !(std::abs(sum) <= units * options.data_precision * largest[v])) return false;
     }
   return true;
 }

@@ -97,7 +97,7 @@ void Hierarchical::State::eliminate_front(tree::FrontId f) {
   PivotRule rule{is_root ? std::max(options.pivot_threshold, 0.1) : options.pivot_threshold,
                  is_root ? 1e-2 : options.tiny_pivot};
   rule.marked = is_constraint.get();
-  rule.least_of_marked = least_of_multipliers;
+  rule.least_of_marked = std::max(least_of_multipliers, uncertain_entry());
   if (d.is_symmetric()) {
     d.pivots = eliminate_symmetric(matrix, {rule.threshold, is_root ? suspect_pivot : rule.least}, &factor_walker);
     if (d.pivots >= 0 && d.pivots < d.full && is_root) {  // the rank is found by complete pivoting

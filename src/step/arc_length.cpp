@@ -235,7 +235,7 @@ StepReport ArcLengthPath::follow(State& state, double length) {
   for (int k = 0;; ++k) {
     if (const auto t = system_.set_time(state.time)) return fail(t->text);
     if (const auto t = system_.evaluate(state, {}, true)) return fail(t->text);
-    report.residual = system_.residual_size();
+    report.residual = residual_of(system_);
     if (k > 0) {
       const bool still = report.change < options_.tolerance &&
                          change_of_load < options_.tolerance * std::max(1.0, std::abs(state.time));

@@ -59,7 +59,7 @@ StepReport try_load(System& system, State& state, const StepOptions& options, do
   double previous = 0.0;
   for (int k = 0;; ++k) {
     if (const auto t = system.evaluate(state, {}, true)) return fail(t->text);
-    report.residual = system.residual_size();
+    report.residual = residual_of(system);
     if (k > 0) {
       const bool still = report.change < options.tolerance;
       report.converged = still && (is_small(system, report.residual, options.tolerance) || options.single_solution);

@@ -63,6 +63,7 @@ solve::SolveOptions make_solve_options(const plan::Plan& plan, const scene::Solv
   options.penalty_factor = given.penalty_factor;
   options.lanes = plan.took("lanes");
   options.refinement_above = round_off_of(plan.graph);
+  options.data_precision = plan.precision;
   options.inertia = !plan.is_dynamic;  // needed by Stability
   if (plan.took("symmetric")) options.symmetry = solve::Symmetry::symmetric;
   return options;

@@ -28,6 +28,16 @@ constexpr double least_residual = 1e-13;
 
 }  // namespace
 
+ResidualSize residual_of(const System& system) {
+  ResidualSize r = system.residual_size();
+  const double precision = system.plan().precision;
+  if (!(precision > 0.0) || system.linear().solver().last_status().deficiency <= 0) return r;
+  constexpr double units = 16.0;
+  r.length = std::max(0.0, r.length - units * precision * system.plan().length_scale);
+  r.angle = std::max(0.0, r.angle - units * precision);
+  return r;
+}
+
 double largest_share(const System& system, const ResidualSize& r) {
   const double arm = system.moment_arm();
   constexpr double huge = 1e100;  // larger ratios carry no information and must not overflow

@@ -36,6 +36,10 @@ struct IterationGoal {
 /// prescribe all motion.
 IterationGoal make_goal(const State& start, double tolerance);
 
+/// The residual just evaluated. Rows that depend on each other within the precision of the scene are not enforced, and
+/// are open by as much as that: violations up to it do not count, where the last factorization found such rows.
+ResidualSize residual_of(const System& system);
+
 /// Relative size of a residual: the largest of its forces, moments, lengths and angles, each relative to its own scale
 /// (the sum of the magnitudes of the terms, the size of the structure, 1 rad).
 double largest_share(const System& system, const ResidualSize& r);

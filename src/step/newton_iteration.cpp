@@ -52,7 +52,7 @@ std::optional<Trouble> NewtonIteration::evaluate(const State& state) {
   else
     t = system_.evaluate(state, slopes_, false);  // the matrix will be factored anew
   if (t) return t;
-  report_.residual = system_.residual_size();
+  report_.residual = residual_of(system_);
   const double before = std::exchange(size_, largest_share(system_, report_.residual));
   if (count() > 0) shrunk_ = size_ < before ? size_ / before : 1.0;
   return of_factor;

@@ -203,7 +203,10 @@ StartReport make_consistent_on(System& system, State& state, bool fix_positions,
     gap = next;
     if (const auto t = factor_mass(system, state, step_size)) return failed(t->text);
   }
-  if (gap > open) {
+  // Rows that depend on each other within the precision of the scene need not agree better.
+  constexpr double units = 64.0;
+  const double precision = units * system.plan().precision;
+  if (gap > std::max(open, precision)) {
     char text[80];
     std::snprintf(text, sizeof text, " cannot be closed at time %.6g: a gap of %.3g is left", state.time,
                   system.constraints().violation(state, 0));
@@ -218,7 +221,8 @@ StartReport make_consistent_on(System& system, State& state, bool fix_positions,
   if (const auto t = project_velocities(system, state, nullptr, &report, step_size)) return failed(t->text);
   speed = std::max(speed, speed_scale(system, state));
   if (report.velocity_change * speed <= still / step_size) report.velocity_change = 0.0;
-  if (system.constraints().relative_violation(state, 1, &worst) > apart * speed + still / step_size) {
+  if (system.constraints().relative_violation(state, 1, &worst) >
+      std::max(apart, precision) * speed + still / step_size) {
     char text[80];
     std::snprintf(text, sizeof text, " cannot move as asked at time %.6g: a rate of %.3g is left", state.time,
                   system.constraints().violation(state, 1));

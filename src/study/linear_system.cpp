@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bough/blocks/at.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/records/no_recorder.hpp"
+#include "bough/results/interface_force.hpp"
 #include "bough/run/simulate.hpp"
 #include "bough/scene/joint_kinds.hpp"
+#include "bough/scene/sensor_kinds.hpp"
 
 namespace bough::study {
 
@@ -122,8 +125,53 @@ std::vector<UnknownBlock> make_blocks(const step::System& system) {
   return out;
 }
 
+/// The interface of the sub-domain of this path, in the scene's units, by scaled ones: K = R^-1 K' C^-1. What is wrong
+/// with the path, in words; empty: nothing is.
+std::string fill_interface(step::System& system, const std::string& path, LinearSystem& out) {
+  solve::AnySolver& solver = system.linear().solver();
+  if (solver.hierarchical() == nullptr && solver.augmented() == nullptr)
+    return "the form of the solver has no interfaces of sub-domains: set /solver/form=local or augmented";
+  const tree::Tree& tree = system.linear().tree();
+  const std::optional<std::vector<int>> children = scene::read_path(path);
+  const tree::SubdomainId id = children ? results::subdomain_at(tree, *children) : tree::none;
+  if (id == tree::none || id == tree.root())
+    return "the tree of the solver has no sub-domain \"" + path + "\" below its root, of " +
+           std::to_string(tree.num_subdomains()) +
+           ": bough profile lists them; /solver/depth and /solver/leaf_size cut it";
+  constexpr int any_width = std::numeric_limits<int>::max();
+  const std::vector<solve::InterfaceReport> all =
+      solver.augmented() != nullptr ? solver.augmented()->interfaces(any_width, true)
+                                    : solver.hierarchical()->interfaces(system.walker(), any_width, true);
+  const std::span<const double> rows = solver.augmented() != nullptr ? solver.augmented()->row_scale()
+                                                                     : solver.hierarchical()->row_scale(),
+                                columns = solver.augmented() != nullptr ? solver.augmented()->column_scale()
+                                                                        : solver.hierarchical()->column_scale();
+  const solve::InterfaceReport& report = all[at(id)];
+  const std::vector<std::int64_t>& unknowns = report.matrices.unknowns;
+  const std::size_t n = unknowns.size();
+  InterfaceSystem& to = out.interface.emplace();
+  to.condition = report.condition;
+  to.stiffness.resize(n * n);
+  to.penalty.assign(n * n, 0.0);
+  to.flexibility.resize(n * n);
+  for (std::size_t j = 0; j < n; ++j) {
+    const auto block = std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), unknowns[j]) -
+                       tree.unknown_begin.begin() - 1;
+    to.unknowns.push_back(system.linear().owners().name(static_cast<int>(block)) + " " +
+                          std::to_string(unknowns[j] - tree.unknown_begin[at(block)] + 1));
+    to.penalty[j * n + j] = report.matrices.penalty[j] / rows[at(unknowns[j])] / columns[at(unknowns[j])];
+    for (std::size_t i = 0; i < n; ++i) {
+      to.stiffness[j * n + i] = report.matrices.stiffness[j * n + i] / rows[at(unknowns[i])] / columns[at(unknowns[j])];
+      to.flexibility[j * n + i] =
+          report.matrices.flexibility[j * n + i] * columns[at(unknowns[i])] * rows[at(unknowns[j])];
+    }
+  }
+  return "";
+}
+
 /// Fills in the system from the state that a step starts from.
-void fill(step::System& system, step::State state, const run::BeforeStep& attempt, LinearSystem& out) {
+void fill(step::System& system, step::State state, const run::BeforeStep& attempt, const std::string& interface,
+          LinearSystem& out) {
   out.is_dynamic = system.plan().is_dynamic;
   out.step = attempt.number;
   out.begin = state.time;
@@ -146,6 +194,9 @@ void fill(step::System& system, step::State state, const run::BeforeStep& attemp
   out.matrix = make_matrix(system);
   out.solution.resize(out.rhs.size());
   trouble = system.linear().factor(true, slopes);
+  if (!trouble && !interface.empty())
+    if (const std::string wrong = fill_interface(system, interface, out); !wrong.empty())
+      trouble = step::Trouble{wrong};
   if (!trouble) trouble = system.linear().solve(out.rhs.data(), out.solution.data());
   out.backward_error = system.linear().last_solution().backward_error;
   if (trouble) {
@@ -157,7 +208,7 @@ void fill(step::System& system, step::State state, const run::BeforeStep& attemp
 }  // namespace
 
 std::optional<LinearSystem> make_linear_system(const scene::Scene& scene, const StepChoice& choice, int threads,
-                                               std::string& cause) {
+                                               std::string& cause, const std::string& interface) {
   std::optional<LinearSystem> out;
   run::SimulateOptions options;
   options.threads = threads;
@@ -166,7 +217,7 @@ std::optional<LinearSystem> make_linear_system(const scene::Scene& scene, const 
     const bool is_it =
         choice.time ? attempt.end >= *choice.time - tolerance : attempt.number == choice.number.value_or(1);
     if (!is_it) return true;
-    fill(system, state, attempt, out.emplace());
+    fill(system, state, attempt, interface, out.emplace());
     return false;
   };
   records::NoRecorder recorder;
@@ -175,11 +226,24 @@ std::optional<LinearSystem> make_linear_system(const scene::Scene& scene, const 
     cause = summary.status == records::RunStatus::failed
                 ? summary.cause
                 : "there is no such step: the run ends with step " + std::to_string(summary.steps.accepted);
-  if (out && out->matrix.size == 0 && !out->trouble.empty()) {
+  if (out && !out->trouble.empty() && (out->matrix.size == 0 || (!interface.empty() && !out->interface))) {
     cause = out->trouble;
     out.reset();
   }
   return out;
+}
+
+std::vector<std::string> comments_of(const InterfaceSystem& interface, const LinearSystem& system,
+                                     const std::string& matrix) {
+  const std::string meaning = matrix == "S"   ? "S: the sub-domain condensed to its interface"
+                              : matrix == "P" ? "P: the penalty of the augmented Lagrangian, diagonal"
+                                              : "F = (S + P)^-1: the interface flexibility";
+  std::vector<std::string> lines{"bough: interface of a sub-domain in the first Newton iteration of step " +
+                                     std::to_string(system.step) + "; " + meaning,
+                                 "SI units; by owner and number of the component of its increment:"};
+  for (std::size_t k = 0; k < interface.unknowns.size(); ++k)
+    lines.push_back(std::to_string(k + 1) + " " + interface.unknowns[k]);
+  return lines;
 }
 
 std::vector<std::string> LinearSystem::comments(const std::string& scene_name) const {

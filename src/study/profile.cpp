@@ -6,6 +6,7 @@
 
 #include "bough/blocks/at.hpp"
 #include "bough/results/interface_force.hpp"
+#include "bough/scene/components.hpp"
 #include "bough/schedule/serial.hpp"
 #include "bough/schedule/threads.hpp"
 #include "profile_cost.hpp"
@@ -97,25 +98,68 @@ struct Found {
   tree::Tree tree;
   solve::VisitShapes shapes;
   std::vector<solve::InterfaceReport> interfaces;
-  std::vector<motion::Vec6<double>> interface_forces;  ///< by sub-domain; empty where the run failed
+  std::vector<std::vector<records::InterfaceNode>> interface_nodes;  ///< by sub-domain; empty where the run failed
   solve::SolverCounters counters;
   blocks::BlockGraph graph;
   solve::SolveOptions options;
 };
 
-/// By sub-domain; that of the root is zero.
-std::vector<motion::Vec6<double>> eval_interface_forces(const step::System& system, const step::State& state) {
+std::vector<solve::InterfaceReport> interfaces_of(step::System& system, int widest) {
+  solve::AnySolver& solver = system.linear().solver();
+  if (solver.augmented() != nullptr) return solver.augmented()->interfaces(widest, true);
+  if (solver.hierarchical() == nullptr) return {};
+  return solver.hierarchical()->interfaces(schedule::make_serial_walker(), widest, true);
+}
+
+/// By sub-domain; the root has none. Places are those at the start.
+std::vector<std::vector<records::InterfaceNode>> eval_interface_nodes(const step::System& system,
+                                                                      const step::State& state) {
   const elements::Field field = system.instant().field(state);
   const tree::Tree& tree = system.linear().tree();
-  std::vector<motion::Vec6<double>> forces(tree.subdomains.size(), motion::Vec6<double>::zero());
-  for (tree::SubdomainId s = 0; s < tree.num_subdomains(); ++s)
-    if (s != tree.root()) forces[at(s)] = results::eval_interface_force(system, state, field, s);
-  return forces;
+  std::vector<std::vector<records::InterfaceNode>> nodes(tree.subdomains.size());
+  for (tree::SubdomainId s = 0; s < tree.num_subdomains(); ++s) {
+    if (s == tree.root()) continue;
+    for (const results::InterfaceForce& f : results::eval_interface_forces(system, state, field, s)) {
+      const plan::NodePlan& node = system.plan().nodes[at(f.node)];
+      records::InterfaceNode& to = nodes[at(s)].emplace_back();
+      to.name = node.name;
+      std::copy_n(node.pose.x.v, 3, to.place);
+      std::copy_n(f.wrench.v, 3, to.force);
+      std::copy_n(f.wrench.v + 3, 3, to.moment);
+    }
+  }
+  return nodes;
+}
+
+/// The scaled flexibilities of those interfaces that are drawn: of the largest conditions.
+void keep_flexibilities(std::vector<solve::InterfaceReport>& interfaces, const step::System& system,
+                        records::Profile& out) {
+  constexpr std::size_t most_drawn = 6, most_unknowns = 96;
+  std::vector<const solve::InterfaceReport*> order;
+  for (const solve::InterfaceReport& i : interfaces)
+    if (!i.matrices.unknowns.empty() && i.matrices.unknowns.size() <= most_unknowns) order.push_back(&i);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto* a, const auto* b) { return a->condition > b->condition; });
+  order.resize(std::min(order.size(), most_drawn));
+  const std::vector<std::int64_t>& first_of = system.linear().tree().unknown_begin;
+  for (const solve::InterfaceReport* i : order) {
+    records::SubdomainProfile& to = out.subdomains[at(i->subdomain)];
+    const std::size_t n = i->matrices.unknowns.size();
+    for (const std::int64_t u : i->matrices.unknowns) {
+      const auto block = std::upper_bound(first_of.begin(), first_of.end(), u) - first_of.begin() - 1;
+      to.unknowns.push_back(system.linear().owners().name(static_cast<int>(block)) + ", " +
+                            std::to_string(u - first_of[at(block)] + 1));
+    }
+    to.flexibility.resize(n * n);
+    for (std::size_t k = 0; k < n * n; ++k)
+      to.flexibility[k] =
+          std::sqrt(i->matrices.penalty[k % n] * i->matrices.penalty[k / n]) * i->matrices.flexibility[k];
+  }
 }
 
 void fill_subdomains(const Found& found, const VisitMedians& m, records::Profile& out) {
   const std::vector<std::int64_t> own_entries = count_matrix_entries(found.graph, found.tree);
-  out.subdomains.resize(at(found.tree.num_subdomains()));
+  out.subdomains.resize(at(found.tree.num_subdomains()));  // some have flexibilities already
   for (int s = 0; s < found.tree.num_subdomains(); ++s) {
     const tree::Subdomain& sub = found.tree.subdomains[at(s)];
     records::SubdomainProfile& p = out.subdomains[at(s)];
@@ -167,17 +211,16 @@ void fill_subdomains(const Found& found, const VisitMedians& m, records::Profile
     out.factor_bytes += shape.factor_bytes;
     out.element_bytes += shape.element_bytes;
   }
-  for (const solve::InterfaceReport& i : found.interfaces) out.subdomains[at(i.subdomain)].condition = i.condition;
+  for (const solve::InterfaceReport& i : found.interfaces) {
+    out.subdomains[at(i.subdomain)].condition = i.condition;
+    out.subdomains[at(i.subdomain)].spectrum = i.spectrum;
+  }
   for (std::size_t s = out.subdomains.size(); s-- > 0;) {  // parents first
     const std::string& above = out.subdomains[s].path;
     int k = 0;
     for (tree::SubdomainId c : found.tree.children(found.tree.subdomains[s]))
       out.subdomains[at(c)].path = above + (above.empty() ? "" : ".") + std::to_string(k++);
-    if (out.subdomains[s].parent < 0 || found.interface_forces.empty()) continue;
-    const motion::Vec3<double> f = lanes::linear_part(found.interface_forces[s]);
-    const motion::Vec3<double> m = lanes::angular_part(found.interface_forces[s]);
-    out.subdomains[s].force = length_of(f);
-    out.subdomains[s].moment = length_of(m);
+    if (!found.interface_nodes.empty()) out.subdomains[s].nodes = found.interface_nodes[s];
   }
   records::sum_subtrees(out.subdomains);
   out.levels = records::sum_levels(out.subdomains);
@@ -296,11 +339,6 @@ void predict_threads(const Found& found, const VisitMedians& m, const WatchedRun
 
 }  // namespace
 
-std::string cannot_profile(const scene::Scene& scene) {
-  if (scene.solver.form == scene::SolverForm::local) return {};
-  return "only the solver of form \"local\" takes the walks that are profiled: profile with --set /solver/form=local";
-}
-
 records::Profile profile(const scene::Scene& given, const ProfileOptions& options, records::Recorder& recorder,
                          const run::ProgressCallback& progress) {
   scene::Scene scene = given;
@@ -316,12 +354,14 @@ records::Profile profile(const scene::Scene& given, const ProfileOptions& option
     found.tree = system.linear().tree();
     found.graph = system.plan().graph;
     found.options = step::make_solve_options(system.plan(), scene.solver);
+    found.options.lanes = found.options.lanes && system.linear().solver().hierarchical() != nullptr;
     found.shapes = solve::make_visit_shapes(found.graph, found.tree, found.options);
     found.counters = system.linear().solver().counters();
     if (system.counts().factorizations > 0 && system.linear().solver().last_status().ok())
-      found.interfaces =
-          system.linear().solver().hierarchical()->interfaces(schedule::make_serial_walker(), options.widest_condition);
-    found.interface_forces = eval_interface_forces(system, state);
+      found.interfaces = interfaces_of(system, options.widest_condition);
+    out.subdomains.resize(at(found.tree.num_subdomains()));
+    keep_flexibilities(found.interfaces, system, out);
+    found.interface_nodes = eval_interface_nodes(system, state);
     out.is_dynamic = system.plan().is_dynamic;
     draw_parts(system.plan(), found.tree, out);
   };
@@ -331,6 +371,7 @@ records::Profile profile(const scene::Scene& given, const ProfileOptions& option
   out.steps = run.summary.steps.accepted;
   out.factorizations = run.summary.steps.factorizations;
   out.solutions = found.counters.solutions;
+  out.form = scene::to_string(scene.solver.form);
   out.cut = found.tree.method;
   out.num_visits = static_cast<int>(found.shapes.visits.size());
   out.solver_bytes = found.counters.memory_bytes;

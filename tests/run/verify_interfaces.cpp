@@ -104,6 +104,50 @@ TEST(Interfaces, of_links_carry_what_their_joints_carry) {
   EXPECT_GT(std::abs(r.history.last("a.fy")), 1.0);
 }
 
+/// A bar pulled at both ends shows the pull at every node of every interface, on both sides of a cut with opposite
+/// signs, in the ground's axes and in those of the node; the resultant on a part in the middle is zero.
+TEST(Interfaces, show_the_pull_of_a_bar_at_each_node) {
+  for (const char* form : {"local", "augmented"}) {
+    std::string sensors;
+    for (const char* path : {"0", "1", "0.0", "0.1", "1.0", "1.1"})
+      for (int node = 0; node <= 8; ++node)
+        sensors += std::string(sensors.empty() ? "" : ",") + R"-({"name": ")-" + path + "@" + std::to_string(node) +
+                   R"-(", "kind": "interface_force", "subdomain": ")-" + path + R"-(", "at": "bar.)-" +
+                   std::to_string(node) + R"-(", "axes": "body"})-";
+    scene::Scene s =
+        cantilever({R"-(/analysis={"kind": "static", "load_steps": 1})-", "/loads/0/force=[1000, 0, 0]",
+                    "/sensors=[" + sensors + "]", R"-(/solver={"depth": 2, "form": ")-" + std::string(form) + "\"}"});
+    // Only nodes of the interface are taken: the others are refused one after the other.
+    for (std::size_t left = s.sensors.size();; --left) {
+      ASSERT_GT(left, 0u);
+      const Outcome tried = support::run(s);
+      if (tried.ok()) break;
+      const auto is_refused = [&](const scene::Sensor& sensor) {
+        return tried.summary.cause.starts_with("sensor '" + sensor.name + "': 'bar." +
+                                               sensor.name.substr(sensor.name.find('@') + 1) +
+                                               "' is not at the interface of sub-domain ");
+      };
+      ASSERT_EQ(std::erase_if(s.sensors, is_refused), 1u) << tried.summary.cause;
+    }
+    ASSERT_GE(s.sensors.size(), 6u);
+    const Outcome r = run_ok(s);
+    int twice = 0;
+    for (const scene::Sensor& a : s.sensors) {
+      EXPECT_NEAR(std::abs(r.history.last(a.name + ".fx")), 1000.0, 1e-6) << a.name;
+      for (const char* c : {".fy", ".fz", ".mx", ".my", ".mz"}) EXPECT_NEAR(r.history.last(a.name + c), 0.0, 1e-6);
+      for (const scene::Sensor& b : s.sensors) {  // of the same part at another node, of the same level at the same
+        const auto path = [](const scene::Sensor& of) { return of.name.substr(0, of.name.find('@')); };
+        const bool is_other_side = path(a) != path(b) && path(a).size() == path(b).size() && a.at.to == b.at.to;
+        const bool is_other_end = path(a) == path(b) && a.at.to != b.at.to;
+        if (!is_other_side && !is_other_end) continue;
+        ++twice;
+        EXPECT_NEAR(r.history.last(a.name + ".fx") + r.history.last(b.name + ".fx"), 0.0, 1e-6) << a.name << b.name;
+      }
+    }
+    EXPECT_GE(twice, 4);
+  }
+}
+
 TEST(Interfaces, that_the_tree_does_not_have_are_refused_by_name) {
   const Outcome r =
       support::run(cantilever({R"-(/analysis={"kind": "static"})-", R"-(/sensors/0/subdomain="1.0.2")-"}));

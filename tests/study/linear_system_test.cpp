@@ -205,5 +205,35 @@ TEST(LinearSystem, SingularMatricesAreHandedOutWithTheirTrouble) {
   EXPECT_NE(system.trouble.find("singular"), std::string::npos) << system.trouble;
 }
 
+/// F (S + P) = 1 in the units of the scene; condensing what is left over of S to the rest gives the Schur complement of
+/// the exported matrix.
+TEST(LinearSystem, InterfacesHaveTheirMatrices) {
+  for (const scene::SolverForm form : {scene::SolverForm::local, scene::SolverForm::augmented}) {
+    scene::Scene s = make_cantilever();
+    s.solver.depth = 1;
+    s.solver.form = form;
+    std::string cause;
+    const auto system = study::make_linear_system(s, {}, 1, cause, "0");
+    ASSERT_TRUE(system && system->interface) << cause;
+    const study::InterfaceSystem& interface = *system->interface;
+    const std::size_t n = interface.unknowns.size();
+    ASSERT_GT(n, 0u);
+    ASSERT_EQ(interface.flexibility.size(), n * n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) {
+        double sum = 0.0, size = i == j ? 1.0 : 0.0;
+        for (std::size_t k = 0; k < n; ++k) {
+          const double term =
+              interface.flexibility[k * n + i] * (interface.stiffness[j * n + k] + interface.penalty[j * n + k]);
+          sum += term;
+          size += std::abs(term);
+        }
+        EXPECT_NEAR(sum, i == j ? 1.0 : 0.0, 1e-10 * size);
+      }
+    EXPECT_FALSE(study::make_linear_system(s, {}, 1, cause, "0.7"));
+    EXPECT_NE(cause.find("no sub-domain \"0.7\""), std::string::npos) << cause;
+  }
+}
+
 }  // namespace
 }  // namespace bough

@@ -206,10 +206,13 @@ TEST(Profile, forces_at_interfaces_are_those_of_sensors_by_their_paths) {
   for (const SubdomainProfile& d : without.subdomains) {
     EXPECT_EQ(d.path.empty(), d.parent < 0);
     if (d.parent < 0) continue;
-    s.sensors.emplace_back();
-    s.sensors.back().name = "s" + std::to_string(d.id);
-    s.sensors.back().kind = scene::SensorKind::interface_force;
-    s.sensors.back().subdomain = d.path;
+    for (const records::InterfaceNode& n : d.nodes) {
+      s.sensors.emplace_back();
+      s.sensors.back().name = "s" + std::to_string(s.sensors.size());
+      s.sensors.back().kind = scene::SensorKind::interface_force;
+      s.sensors.back().subdomain = d.path;
+      s.sensors.back().at.to = n.name;
+    }
   }
   Rows rows;
   const Profile p = study::profile(s, {.threads = 1, .steps = 20, .steps_for_speed = 4}, rows);
@@ -217,14 +220,15 @@ TEST(Profile, forces_at_interfaces_are_those_of_sensors_by_their_paths) {
   ASSERT_EQ(rows.rows.back().values.size(), before.rows.back().values.size() + 6 * s.sensors.size());
   std::size_t k = 0;
   for (const SubdomainProfile& d : p.subdomains) {
-    if (d.parent < 0) {
-      EXPECT_TRUE(std::isnan(d.force));
-      continue;
+    EXPECT_EQ(d.nodes.empty(), d.parent < 0);
+    if (!d.nodes.empty()) EXPECT_GT(d.largest_force(), 0.0);
+    for (const records::InterfaceNode& n : d.nodes) {
+      const double* w = rows.rows.back().values.data() + 6 * k++;
+      for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_DOUBLE_EQ(n.force[c], w[c]) << d.path << " " << n.name;
+        EXPECT_DOUBLE_EQ(n.moment[c], w[3 + c]) << d.path << " " << n.name;
+      }
     }
-    const double* w = rows.rows.back().values.data() + 6 * k++;
-    EXPECT_GT(d.force, 0.0);
-    EXPECT_DOUBLE_EQ(d.force, std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])) << d.path;
-    EXPECT_DOUBLE_EQ(d.moment, std::sqrt(w[3] * w[3] + w[4] * w[4] + w[5] * w[5])) << d.path;
   }
 }
 
@@ -345,11 +349,52 @@ TEST(Profile, a_run_that_fails_shows_what_ran) {
   EXPECT_TRUE(io::parse_json(io::profile_text(p, "0"), io::source_file, faults) && faults.empty());
 }
 
-TEST(Profile, other_solvers_are_refused_in_words) {
-  scene::Scene s = make_scene(4);
-  EXPECT_EQ(study::cannot_profile(s), "");
-  s.solver.form = scene::SolverForm::monolithic;
-  EXPECT_NE(study::cannot_profile(s).find("/solver/form"), std::string::npos);
+/// Forms whose walks visit no sub-domains have times of the step alone; all have interfaces with forces.
+TEST(Profile, takes_every_form) {
+  for (const scene::SolverForm form : {scene::SolverForm::augmented, scene::SolverForm::global,
+                                       scene::SolverForm::hybrid, scene::SolverForm::monolithic}) {
+    scene::Scene s = make_scene(16);
+    s.solver.depth = 2;
+    s.solver.form = form;
+    const Profile p = profile_of(s);
+    EXPECT_EQ(p.trouble, "") << scene::to_string(form);
+    EXPECT_EQ(p.form, scene::to_string(form));
+    EXPECT_GT(p.step.total, 0.0);
+    ASSERT_EQ(p.levels.size(), 3u);
+    double time_of_visits = 0.0;
+    for (const records::SubdomainProfile& d : p.subdomains) {
+      time_of_visits += d.times.solver();
+      EXPECT_EQ(d.nodes.empty(), d.parent < 0);
+    }
+    EXPECT_EQ(time_of_visits > 0.0, form == scene::SolverForm::augmented) << scene::to_string(form);
+    std::vector<io::JsonFault> faults;
+    EXPECT_TRUE(io::parse_json(io::profile_text(p, "0"), io::source_file, faults) && faults.empty());
+  }
+}
+
+/// The flexibilities that are drawn are the scaled ones whose singular values are told.
+TEST(Profile, keeps_flexibilities_of_the_condition_that_it_tells) {
+  scene::Scene s = make_scene(16);
+  s.solver.depth = 2;
+  for (const scene::SolverForm form : {scene::SolverForm::local, scene::SolverForm::augmented}) {
+    s.solver.form = form;
+    const Profile p = profile_of(s);
+    int kept = 0;
+    for (const records::SubdomainProfile& d : p.subdomains) {
+      if (d.parent < 0) continue;
+      ASSERT_FALSE(d.spectrum.empty());
+      EXPECT_NEAR(d.spectrum.front() / d.spectrum.back(), d.condition, 1e-9 * d.condition);
+      const std::size_t n = d.unknowns.size();
+      if (n == 0) continue;
+      ++kept;
+      ASSERT_EQ(d.flexibility.size(), n * n);
+      double squares = 0.0, of_spectrum = 0.0;  // of Frobenius
+      for (const double f : d.flexibility) squares += f * f;
+      for (const double f : d.spectrum) of_spectrum += f * f;
+      EXPECT_NEAR(squares, of_spectrum, 1e-9 * squares);
+    }
+    EXPECT_GT(kept, 0);
+  }
 }
 
 TEST(Tune, proposes_trees_that_differ_and_writes_a_block_that_reads_back) {

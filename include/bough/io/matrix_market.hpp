@@ -19,7 +19,8 @@ struct SparseMatrix {
 /// Text of a matrix: "coordinate real general" or "symmetric", comments (one line each, without '%'), entries column
 /// by column with indices from 1. Numbers read back to the same doubles.
 std::string matrix_market_text(const SparseMatrix& matrix, const std::vector<std::string>& comments);
-/// Text of a column: "array real general".
-std::string matrix_market_text(const std::vector<double>& column, const std::vector<std::string>& comments);
+/// Text of a dense matrix with this number of columns, given column by column: "array real general".
+std::string matrix_market_text(const std::vector<double>& values, const std::vector<std::string>& comments,
+                               std::size_t num_columns = 1);
 
 }  // namespace bough::io

@@ -16,6 +16,9 @@ namespace bough::io {
 /// Head of such a file, a multiple of 64 bytes, the same length for any number of rows.
 std::string npy_head(std::size_t rows, std::size_t columns);
 
+/// A whole file of a square matrix, which is given column by column.
+std::string npy_square(const std::vector<double>& by_columns);
+
 /// Repairs the bytes of a file left by a crash: complete rows only, with their number in the head; empty if there are
 /// none.
 std::string repaired_npy(std::string bytes, std::size_t columns);

@@ -83,8 +83,9 @@ struct StudySpec {
   bool is_dynamic = true;
   double end = 0.0;  ///< of all runs [s]; statics: 1
   int repetitions = 3;
-  double time_limit = 0.0;     ///< of a run [s]
-  std::vector<double> wanted;  ///< errors for which a choice is recommended
+  double time_limit = 0.0;           ///< of a run [s]
+  std::vector<std::string> figures;  ///< of the solver, drawn over the abscissa of each grid
+  std::vector<double> wanted;        ///< errors for which a choice is recommended
   bool has_reference = false;
   StudyReference reference;  ///< of grids that have none, for quantities without formula or table
   std::vector<StudyGrid> grids;

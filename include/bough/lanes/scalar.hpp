@@ -6,9 +6,9 @@
 #include <complex>
 #include <concepts>
 
-/// For the functions of a few lines on 3-vectors that kernels are made of: they are inlined even where the compiler's
-/// heuristic finds the caller too large. BOUGH_NOINLINE: for longer ones that are called at many places.
-#if defined(__GNUC__)
+/// For functions of a few lines on 3-vectors: inlined even where the compiler's heuristic finds the caller too large, but
+/// not without optimisation, where it doubles compile times. BOUGH_NOINLINE: for longer ones called at many places.
+#if defined(__GNUC__) && defined(__OPTIMIZE__)
 #define BOUGH_INLINE inline __attribute__((always_inline))
 #define BOUGH_NOINLINE __attribute__((noinline))
 #else

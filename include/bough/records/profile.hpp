@@ -24,6 +24,15 @@ struct SubdomainTimes {
   double solver() const { return assemble + factor + condense + forward + backward + residual; }
 };
 
+/// A node of an interface: its place, and what the rest of the structure exerts on the sub-domain there at the last
+/// step, in the axes of the ground.
+struct InterfaceNode {
+  std::string name;
+  double place[3] = {};
+  double force[3] = {};   ///< [N]
+  double moment[3] = {};  ///< about the node's origin [N m]
+};
+
 struct SubdomainProfile {
   int id = 0;
   int parent = -1;
@@ -47,12 +56,15 @@ struct SubdomainProfile {
   double condition =
       std::numeric_limits<double>::quiet_NaN();  ///< condition of the scaled flexibility of its interface; NaN: not
                                                  ///< computed
-  double digits_lost() const;                    ///< log10 of condition
   std::string path;  ///< the child taken at each level from the root, "0.1", as sensors of interfaces name it
-  /// Magnitudes of the wrench with which the rest holds it at its interface, about the middle of the interface's nodes,
-  /// at the last step [N, N m]; NaN for the root.
-  double force = std::numeric_limits<double>::quiet_NaN();
-  double moment = std::numeric_limits<double>::quiet_NaN();
+  std::vector<InterfaceNode> nodes;  ///< of its interface; empty for the root
+  double largest_force() const;      ///< magnitude at a node of the interface [N]; NaN for the root
+  double largest_moment() const;     ///< [N m]
+  std::vector<double> spectrum;      ///< singular values of the scaled flexibility, descending; empty: not computed
+  /// Of an interface that is examined: the scaled flexibility P^1/2 F P^1/2 by columns, and the nodes and components
+  /// of its unknowns, as "tip.x".
+  std::vector<double> flexibility;
+  std::vector<std::string> unknowns;
 };
 
 struct LevelProfile {
@@ -145,6 +157,7 @@ struct ProfileNode {
 
 struct Profile {
   std::string scene, title, cut;  ///< cut: how the tree was made, in words
+  std::string form;               ///< of the solver
   std::string trouble;            ///< if the run ended early: why
   int threads = 1, machine_threads = 1;
   long steps = 0, factorizations = 0, solutions = 0;

@@ -51,8 +51,11 @@ class Augmented {
   SolverCounters counters() const;
   std::vector<int> blocks_not_unique() const;
   /// All interfaces but that of the root, which has none, after factor(). The condition is that of P^1/2 F P^1/2; NaN
-  /// above `widest` unknowns. Dense singular values.
-  std::vector<InterfaceReport> interfaces(int widest) const;
+  /// above `widest` unknowns. Dense singular values. keeps_matrices: those of interfaces up to this width.
+  std::vector<InterfaceReport> interfaces(int widest, bool keeps_matrices = false) const;
+  /// As of Hierarchical.
+  std::span<const double> column_scale() const;
+  std::span<const double> row_scale() const;
 
  private:
   struct State;

@@ -83,9 +83,10 @@ class Hierarchical {
   /// factorization and looks at each Schur complement at the end of its visit. Factors are the same afterwards; a
   /// right-hand side that was condensed is not kept.
   /// Condition numbers are computed for interfaces with at most `widest` unknowns (dense singular values, for reports;
-  /// allocates) and are NaN for others. flops: of the sub-domain's own fronts; seconds are not measured. Precondition:
-  /// factor() was ok, and the element matrices are still those.
-  std::vector<InterfaceReport> interfaces(const tree::Walker& walker, int widest = std::numeric_limits<int>::max());
+  /// allocates) and are NaN for others; so are their matrices, if they are kept. flops: of the sub-domain's own fronts;
+  /// seconds are not measured. Precondition: factor() was ok, and the element matrices are still those.
+  std::vector<InterfaceReport> interfaces(const tree::Walker& walker, int widest = std::numeric_limits<int>::max(),
+                                          bool keeps_matrices = false);
   std::vector<int> blocks_not_unique() const;
   /// Scale of every unknown and of every row (powers of two): scaled A = row_scale A column_scale.
   std::span<const double> column_scale() const;

@@ -40,6 +40,9 @@ struct SolveOptions {
   double tiny_pivot = 1e-10;  ///< [-] in scaled variables: smaller pivots are delayed to the parent front.
   double rank_tolerance =
       1e-10;  ///< [-] scaled distance to a singular matrix below which constraint rows are dependent.
+  /// Relative precision of the entries of constraint rows [-]; 0: they have none but round-off. Rows that depend on each
+  /// other within it count as dependent.
+  double data_precision = 0.0;
   double singular_tolerance =
       2e-16;  ///< [-] the same if motion is part of the null vector: the matrix is singular. (Observed: 1e-16 / 4.)
   double null_motion_tolerance =

@@ -76,14 +76,25 @@ struct Inertia {
   int determinant = 0;
 };
 
+/// Matrices of an interface on its tied displacements, in scaled variables, by columns. Those of the scene's units are
+/// D_r^-1 S D_c^-1 and D_c F D_r, with the scales of rows and columns (Hierarchical::row_scale, column_scale).
+struct InterfaceMatrices {
+  std::vector<std::int64_t> unknowns;  ///< of the tree's numbering
+  std::vector<double> stiffness;       ///< S: the sub-domain condensed to its interface
+  std::vector<double> penalty;         ///< the diagonal of P
+  std::vector<double> flexibility;     ///< F = s^2 (S + P)^-1, for s = 1
+};
+
 /// Interface of one sub-domain, or the one interface problem of a form with global multipliers, after factor().
 /// Scaled variables.
 struct InterfaceReport {
   tree::SubdomainId subdomain = tree::none;
   int level = 0;
-  int num_unknowns = 0;     ///< motion unknowns and multipliers tied to the interface mesh.
-  int num_delayed = 0;      ///< unknowns whose pivots were delayed past this interface.
-  double condition = 1.0;   ///< of P^1/2 F P^1/2 on the tied displacements, F = s^2 (S + P)^-1 (2-norm).
+  int num_unknowns = 0;               ///< motion unknowns and multipliers tied to the interface mesh.
+  int num_delayed = 0;                ///< unknowns whose pivots were delayed past this interface.
+  double condition = 1.0;             ///< of P^1/2 F P^1/2 on the tied displacements, F = s^2 (S + P)^-1 (2-norm).
+  std::vector<double> spectrum = {};  ///< singular values of P^1/2 F P^1/2, descending; empty where not computed
+  InterfaceMatrices matrices = {};    ///< empty unless asked for
   bool is_definite = true;  ///< S is positive, up to round-off: only then the condition is bounded by its size.
   int num_coarse = 0;  ///< global multipliers: unknowns of the coarse problem (interface mesh and floating directions).
   int num_floating = 0;  ///< global multipliers: of these, directions in which sub-domains float or nearly do.

@@ -19,11 +19,9 @@ struct ProfileOptions {
 /// Runs a scene for some steps with a timed walker, then again with 1, 2, 4 ... threads up to those of the machine.
 /// Rows, motion and summary are passed to `recorder`; they are bitwise those of simulate() with the same number of
 /// steps and without the decision `small`, which would take one thread, and one sub-domain for a small structure with
-/// many loops. Precondition: problems_in(scene) is empty, and the solver is hierarchical (cannot_profile is empty).
+/// many loops. Precondition: problems_in(scene) is empty. Forms without a tree of sub-domains that walks visit
+/// (global, hybrid, monolithic) have no times of visits: those of the step alone are told.
 records::Profile profile(const scene::Scene& scene, const ProfileOptions& options, records::Recorder& recorder,
                          const run::ProgressCallback& progress = {});
-
-/// Why a scene has no tree to profile; empty if it has one.
-std::string cannot_profile(const scene::Scene& scene);
 
 }  // namespace bough::study

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bough/io/study_spec.hpp"
@@ -37,7 +38,8 @@ struct SweepRun {
   std::vector<ErrorNorms> errors;  ///< by quantity
   std::size_t num_samples = 0;     ///< number of sample times that the run reached
   records::StepCounts steps;
-  double flops_per_factorization = 0.0;
+  std::vector<std::pair<std::string, double>> solver;  ///< figures of the solver, as in its summary
+  double figure(const std::string& name) const;        ///< one of them; NaN: there is none of this name
   std::optional<double>
       instructions;  ///< of one run, in user space; none: the machine does not count them, or the run has several
                      ///< threads

@@ -179,8 +179,8 @@ class Sweep {
     run.cause = sampled.summary.cause;
     run.steps = sampled.summary.steps;
     run.num_samples = sampled.samples.rows.size();
-    for (const auto& [name, value] : sampled.summary.solver)
-      if (name == "flops_per_factorization") run.flops_per_factorization = value;
+    run.solver = sampled.summary.solver;
+    run.solver.emplace_back("linear_backward_error_max", sampled.summary.checks.linear_backward_error_max);
     run.final_values = sampled.summary.final_values;
     const GridReference& reference = references_[run.grid];
     if (!sampled.ok() || !reference.told.trouble.empty()) return;

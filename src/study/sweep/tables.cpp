@@ -40,7 +40,7 @@ std::string choice_along(const io::StudyGrid& grid, const SweepRun& run, const s
 }
 
 /// Measured numbers; null where there is none (a run that failed, a machine that does not tell).
-void measured(io::JsonText& json, const char* name, double value) {
+void measured(io::JsonText& json, std::string_view name, double value) {
   json.key(name);
   if (std::isnan(value))
     json.raw("null");
@@ -148,7 +148,10 @@ void write_run(io::JsonText& json, const SweepResult& r, const SweepRun& run) {
   json.member("rejected", static_cast<long long>(run.steps.rejected));
   json.member("newton_iterations", static_cast<long long>(run.steps.newton_iterations));
   json.member("factorizations", static_cast<long long>(run.steps.factorizations));
-  json.member("flops_per_factorization", run.flops_per_factorization);
+  json.key("solver");
+  json.begin_object();
+  for (const auto& [name, value] : run.solver) measured(json, name, value);
+  json.end_object();
   measured(json, "instructions", run.instructions.value_or(unmeasured));
   json.member("repeatable", run.is_repeatable);
   json.end_object();
@@ -175,6 +178,12 @@ void write_series(io::JsonText& json, const SweepResult& r) {
 }
 
 }  // namespace
+
+double SweepRun::figure(const std::string& name) const {
+  for (const auto& [known, value] : solver)
+    if (known == name) return value;
+  return unmeasured;
+}
 
 std::string sweep_json(const SweepResult& r) {
   io::JsonText json;
@@ -227,8 +236,8 @@ std::string sweep_csv(const SweepResult& r) {
            {run.steps.accepted, run.steps.rejected, run.steps.newton_iterations, run.steps.factorizations})
         csv += "," + std::to_string(n);
       const Spread wall = spread_of(run.wall);
-      for (const double x : {run.flops_per_factorization, run.instructions.value_or(unmeasured), wall.median, wall.low,
-                             wall.high, spread_of(run.cpu).median})
+      for (const double x : {run.figure("flops_per_factorization"), run.instructions.value_or(unmeasured), wall.median,
+                             wall.low, wall.high, spread_of(run.cpu).median})
         number(x);
       csv += '\n';
     }

@@ -1,0 +1,112 @@
+/// Scenes whose numbers were written with few decimals, as programs write them: what is symmetric or dependent but for
+/// its last digit is taken so, and told; what is not is left alone.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "bough/motion/se3.hpp"
+#include "bough/plan/plan.hpp"
+#include "support/scenes.hpp"
+
+namespace bough::run {
+namespace {
+
+using support::Outcome;
+
+constexpr int num_windows = 12;
+
+/// Windows of four bars in a plane askew. Every joint in space adds three dependent rows to a loop.
+scene::Scene windows(const std::vector<std::string>& overrides = {}) {
+  std::vector<std::string> all{"/parameters/N=" + std::to_string(num_windows), "/analysis/end_time=0.1"};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  scene::Scene s = support::gallery("four_bar_windows", all);
+  s.expected.clear();
+  const motion::Vec3<double> turn{{0.4, -1.1, 0.7}};
+  return support::moved(s, {motion::exp_so3(turn), {{0.3, -0.2, 0.9}}});
+}
+
+/// The scene as it is read from a file with this number of decimals: places are rounded, and directions turned by as
+/// much as their rounded components turn them.
+scene::Scene written_with(int decimals, scene::Scene s, unsigned seed) {
+  std::mt19937 random(seed);
+  const double unit = std::pow(10.0, decimals);
+  std::uniform_real_distribution<double> uniform(-0.5 / unit, 0.5 / unit);
+  const auto rounded = [unit](scene::Vec3& x) {
+    for (int k = 0; k < 3; ++k) x[k] = std::round(x[k] * unit) / unit;
+  };
+  const auto turned = [&](scene::Mat3& R) {
+    R = R * motion::exp_so3(motion::Vec3<double>{{uniform(random), uniform(random), uniform(random)}});
+  };
+  rounded(s.gravity);
+  for (scene::Body& b : s.bodies) {
+    rounded(b.placement.pose.x);
+    turned(b.placement.pose.R);
+  }
+  for (scene::Joint& j : s.joints)
+    for (scene::Attachment* a : {&j.first, &j.second}) {
+      for (int k = 0; k < 3; ++k) a->offset.x[k] += uniform(random);
+      turned(a->offset.R);
+    }
+  for (scene::InitialVelocity& v : s.initial_velocities) {
+    rounded(v.velocity);
+    rounded(v.angular_velocity);
+  }
+  return s;
+}
+
+double figure(const Outcome& r, const std::string& name) {
+  for (const auto& [key, value] : r.summary.solver)
+    if (key == name) return value;
+  ADD_FAILURE() << name;
+  return -1.0;
+}
+
+TEST(WrittenDecimals, a_plane_is_found_and_told) {
+  const Outcome exact = support::run_ok(windows());
+  for (const int decimals : {9, 7, 6}) {
+    SCOPED_TRACE(std::to_string(decimals) + " decimals");
+    const scene::Scene s = written_with(decimals, windows(), 3);
+    const plan::Plan p = plan::make_plan(s);
+    EXPECT_EQ(p.unknowns.motions, plan::Motions::planar);
+    const std::string start = "places are written with " + std::to_string(decimals) + " decimals";
+    EXPECT_TRUE(
+        std::any_of(p.notes.begin(), p.notes.end(), [&](const std::string& n) { return n.starts_with(start); }));
+    const Outcome r = support::run_ok(s);
+    const double allowed = 100.0 * std::pow(10.0, -decimals);
+    for (const char* c : {"B0.x", "B0.y", "B0.z"}) EXPECT_NEAR(r.history.last(c), exact.history.last(c), allowed) << c;
+    EXPECT_LE(figure(r, "dependent_rows"), 0.0);
+  }
+}
+
+TEST(WrittenDecimals, what_is_off_by_more_is_left_alone) {
+  scene::Scene s = written_with(9, windows(), 3);
+  s.joints[4].second.offset.R = s.joints[4].second.offset.R * motion::exp_so3(motion::Vec3<double>{{1e-6, 0.0, 0.0}});
+  EXPECT_EQ(plan::make_plan(s).unknowns.motions, plan::Motions::spatial);
+  // Few decimals are written by hand, and meant; more than twelve are round-off.
+  EXPECT_EQ(plan::make_plan(written_with(4, windows(), 3)).precision, 0.0);
+  EXPECT_EQ(plan::make_plan(windows()).precision, 0.0);
+}
+
+/// In space, where each loop has three dependent rows but for its last digit: they count as dependent at all times, in
+/// the fronts in which their loops close.
+TEST(WrittenDecimals, rows_of_loops_are_dependent) {
+  const std::vector<std::string> in_space{R"(/without=["planar"])"};
+  const Outcome exact = support::run_ok(windows(in_space));
+  EXPECT_EQ(figure(exact, "dependent_rows"), 3.0 * num_windows);
+  for (const int decimals : {10, 9, 7, 6}) {
+    SCOPED_TRACE(std::to_string(decimals) + " decimals");
+    const Outcome r = support::run_ok(written_with(decimals, windows(in_space), 5));
+    EXPECT_EQ(figure(r, "dependent_rows"), 3.0 * num_windows);
+    for (const std::string& note : r.summary.notes)
+      EXPECT_EQ(note.find("singular position"), std::string::npos) << note;
+    EXPECT_LE(r.summary.steps.factorizations, exact.summary.steps.factorizations + 4);
+    EXPECT_LE(r.summary.steps.newton_iterations, 1.3 * static_cast<double>(exact.summary.steps.newton_iterations));
+    const double allowed = 100.0 * std::pow(10.0, -decimals);
+    for (const char* c : {"B0.x", "B0.y", "B0.z"}) EXPECT_NEAR(r.history.last(c), exact.history.last(c), allowed) << c;
+  }
+}
+
+}  // namespace
+}  // namespace bough::run
