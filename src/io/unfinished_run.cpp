@@ -69,7 +69,8 @@ std::optional<UnfinishedRun> find_unfinished_run(const fs::path& directory) {
   for (const fs::path& place : {directory, OutputFolder::staging_of(directory)}) {
     const std::optional<Manifest> manifest = read_manifest(place);
     if (!manifest) continue;
-    if (manifest->made_by != "run" || fs::exists(place / "summary.json", ignored)) return std::nullopt;
+    if (manifest->made_by != "run" || fs::exists(fs::symlink_status(place / "summary.json", ignored)))
+      return std::nullopt;
     UnfinishedRun run{place};
     if (file_so_far(run, "history.csv").empty()) return std::nullopt;
     run.goes_on = !FolderLock().take(place);

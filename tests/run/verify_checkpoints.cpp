@@ -10,6 +10,7 @@
 #include "bough/io/motion_frames.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/io/summary.hpp"
+#include "bough/run/estimate.hpp"
 #include "bough/run/simulation.hpp"
 #include "support/scenes.hpp"
 #include "support/source_dir.hpp"
@@ -114,7 +115,8 @@ void expect_no_cut_shows(const scene::Scene& scene, const std::string& name, int
 
 /// Long scenes are cut short: a checkpoint has to hold for the steps after it, not for an hour.
 scene::Scene shortened(scene::Scene s) {
-  constexpr double most_steps = 120.0;
+  constexpr double large = 5000.0;  // unknowns
+  const double most_steps = estimate_run(s).unknowns > large ? 8.0 : 120.0;
   s.output.motion = true;
   if (s.analysis.kind != scene::AnalysisKind::statics)
     s.analysis.end_time = std::min(s.analysis.end_time, most_steps * s.analysis.step_size);

@@ -39,7 +39,7 @@ def without_times(summary):
         data.pop(key, None)
     data.pop("files", None)
     data["origin"].pop("commit", None)
-    data["solver"] = {k: v for k, v in data.get("solver", {}).items() if "second" not in k and "memory" not in k}
+    data["solver"] = {k: v for k, v in data.get("solver", {}).items() if not k.endswith("_bytes")}
     return data
 
 
