@@ -7,6 +7,7 @@ SCENARIO ?= data/scenarios/four_bar_misaligned.json
 RESULTS ?= build/results
 STUDY ?= build/study
 CTEST := ctest --test-dir build/release --output-on-failure --no-tests=error -j $(JOBS)
+# What installs missing packages; "make NEED=true" leaves that out.
 NEED := sh cmake/install_dependencies.sh
 
 .PHONY: help run build test bench study stress gallery fuzz check-all dispatch install lint format clean
@@ -25,6 +26,8 @@ help:
 	@echo "make dispatch   build one program for every x86-64 (build/dispatch) and test it; three times the time of build"
 	@echo "make install    install into PREFIX ($(PREFIX)), with sudo only if the folder needs it"
 	@echo "make clean      remove build/"
+	@echo "Packages that are missing are listed, and then installed by apt-get, under sudo where that is needed."
+	@echo "make NEED=true TARGET      installs none"
 
 build/release/build.ninja:
 	@$(NEED) build
@@ -86,10 +89,14 @@ dispatch:
 	cmake --build build/dispatch --parallel $(JOBS)
 	ctest --test-dir build/dispatch --output-on-failure --no-tests=error -j $(JOBS)
 
+# Under sudo only where a folder cannot be written; any other failure is one.
 install: build
-	mkdir -p $(PREFIX) 2>/dev/null && test -w $(PREFIX) \
-	  && cmake --install build/release --prefix $(PREFIX) \
-	  || sudo cmake --install build/release --prefix $(PREFIX)
+	@may=yes; mkdir -p "$(PREFIX)" 2>/dev/null || may=no; \
+	for folder in "$(PREFIX)" "$(PREFIX)"/bin "$(PREFIX)"/include "$(PREFIX)"/lib "$(PREFIX)"/share; do \
+	  test ! -e "$$folder" || test -w "$$folder" || may=no; done; \
+	if [ $$may = yes ]; then cmake --install build/release --prefix "$(PREFIX)"; \
+	else echo "$(PREFIX) cannot be written by this user: installing under sudo"; \
+	  sudo cmake --install build/release --prefix "$(PREFIX)"; fi
 
 clean:
 	rm -rf build

@@ -16,6 +16,9 @@ install(FILES
   cmake/FindMETIS.cmake
   DESTINATION "${_package_dir}")
 
+# What must go along with every copy: the licence, and those of what is linked or bundled.
+install(FILES LICENSE THIRD_PARTY.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
 # The reader and runner for Python: put this folder into PYTHONPATH.
 if(BOUGH_BUILD_APPS)
   install(FILES apps/python/bough.py DESTINATION "${CMAKE_INSTALL_DATADIR}/bough/python")

@@ -75,6 +75,7 @@ if [ "$(id -u)" -ne 0 ]; then
   fi
 fi
 echo "Installing with apt-get${as_root:+ under sudo}:$missing"
+[ -z "$as_root" ] || echo "To install them in another way: interrupt this, and then run make with NEED=true."
 export DEBIAN_FRONTEND=noninteractive
 # Another program may be at apt or dpkg, as unattended upgrades are at night: its end is waited for. apt-get waits by itself
 # for the locks of dpkg, but not for those of the lists of packages and of the archives.

@@ -12,7 +12,7 @@ enum Exit : int {
   exit_done = 0,
   exit_failed = 1,     ///< a run failed, or is doubted where that counts (--strict); histories differ
   exit_bad_input = 2,  ///< bad input, bad options, a file that cannot be read
-  exit_stopped = 3,    ///< a batch or sweep was stopped; --resume goes on with it
+  exit_stopped = 3,    ///< a run, batch or sweep was stopped; --resume goes on with it
 };
 
 struct RunArguments {
@@ -20,7 +20,7 @@ struct RunArguments {
   int threads = 0;                   ///< 0: as many as the machine has
   std::vector<std::string> overrides;
   double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
-  bool quiet = false, replace = false;
+  bool quiet = false, replace = false, resume = false;
   bool check_expected = false, strict = false;
 };
 struct ViewArguments {
@@ -101,6 +101,9 @@ struct CompareArguments {
   std::filesystem::path a, b;
   double relative = 1e-9, absolute = 0.0;
 };
+struct StatusArguments {
+  std::filesystem::path directory;
+};
 /// What a verb of numbers writes besides its table.
 struct NumberFiles {
   std::filesystem::path csv, json, svg;  ///< empty: not written
@@ -150,6 +153,7 @@ int plan(const PlanArguments& arguments);
 int check(const CheckArguments& arguments);
 int expand(const ExpandArguments& arguments);
 int compare(const CompareArguments& arguments);
+int status(const StatusArguments& arguments);
 int kinematics_razi(const RaziArguments& arguments);
 int kinematics_motion(const MotionArguments& arguments);
 int study_scene(const StudyArguments& arguments);

@@ -81,7 +81,8 @@ int run_into_folder(const study::BatchCase& which, const CaseSettings& settings,
                     const io::RunOrigin& origin, std::chrono::steady_clock::time_point start,
                     study::CaseReport& report) {
   records::Summary summary;
-  io::RunDirectory directory(which.directory, std::string(version), origin);
+  io::RunDirectory directory(which.directory, std::string(version), origin, false,
+                             {scene.output.checkpoint, scene.output.checkpoint_time, settings.resume});
   try {
     directory.open();
     summary = simulate(scene, settings, start, directory);
@@ -113,6 +114,11 @@ bool has_large_results(const scene::Scene& scene) {
 io::RunStore& store_in(const std::filesystem::path& folder) {
   static io::RunStore store(folder);
   return store;
+}
+
+/// Whether a run may take longer than its checkpoints are apart, for which it needs a folder.
+bool takes_long(const scene::Scene& scene) {
+  return scene.output.checkpoint > 0.0 && run::estimate_run(scene).seconds() > scene.output.checkpoint;
 }
 
 int run_into_store(const study::BatchCase& which, const CaseSettings& settings, const scene::Scene& scene,
@@ -158,7 +164,7 @@ int run_case_within(const study::BatchCase& which, const CaseSettings& settings,
     case Kept::nothing:
       break;
     case Kept::store:
-      if (!has_large_results(file.scene))
+      if (!has_large_results(file.scene) && !takes_long(file.scene))
         return run_into_store(which, settings, file.scene, origin, start, failed_folders, report, rows);
       [[fallthrough]];
     case Kept::folder:

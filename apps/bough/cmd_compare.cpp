@@ -17,8 +17,10 @@ struct Side {
 
 Side read_side(const std::filesystem::path& path) {
   if (std::error_code unknown; !std::filesystem::is_directory(path, unknown)) return {io::read_history(path), ""};
-  const io::SummaryFile summary = io::read_whole_summary(path, {"history.csv"});
-  return {io::read_history(path / "history.csv"), summary.status};
+  return io::read_unchanged(path, [&] {
+    const io::SummaryFile summary = io::read_whole_summary(path, {"history.csv"});
+    return Side{io::read_history(path / "history.csv"), summary.status};
+  });
 }
 
 std::string verdict(const io::ColumnDifference& column) {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "arguments.hpp"
+#include "bough/io/number_text.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/io/run_directory.hpp"
 #include "bough/run/simulate.hpp"
@@ -22,8 +23,9 @@ std::optional<records::Summary> simulate_into(io::RunDirectory& directory, const
                                               const RunArguments& arguments) {
   catch_interrupts();
   ProgressBar bar(arguments.quiet);
-  const auto on_step = [&bar](const records::Progress& progress) {
+  const auto on_step = [&](const records::Progress& progress) {
     bar.show(progress);
+    directory.note_progress(progress);
     return !interrupted();
   };
   run::SimulateOptions options;
@@ -52,8 +54,11 @@ int run(const RunArguments& arguments) {
   if (refuse_for_memory(arguments.scene, file.scene, arguments.memory_limit)) return exit_bad_input;
   io::RunDirectory directory(arguments.out.empty() ? std::filesystem::path(file.scene.name + ".out") : arguments.out,
                              std::string(version), origin_of(arguments.scene, file, arguments.overrides),
-                             arguments.replace);
+                             arguments.replace,
+                             {file.scene.output.checkpoint, file.scene.output.checkpoint_time, arguments.resume});
   directory.open();
+  for (const std::string& text : directory.told())
+    if (!arguments.quiet) std::cerr << "bough: " << file.scene.name << ": " << text << "\n";
   const std::optional<records::Summary> summary = simulate_into(directory, file, arguments);
   if (!summary) return exit_failed;
   if (!arguments.quiet)
@@ -64,6 +69,11 @@ int run(const RunArguments& arguments) {
     std::cerr << "bough: " << file.scene.name << ": " << summary->cause << "\n";
   if (const std::string why = directory.why_beside(); !why.empty())
     std::cerr << "bough: " << why << "; the results of this run stand in " << directory.directory().string() << "\n";
+  if (directory.can_go_on()) {
+    std::cerr << "bough: " << file.scene.name << ": --resume goes on from time "
+              << io::rounded_text(directory.time(), 6) << "\n";
+    return exit_stopped;
+  }
   if (summary->status != records::RunStatus::ok || !directory.why_beside().empty()) return exit_failed;
   const bool all_hold = std::all_of(summary->expected.begin(), summary->expected.end(),
                                     [](const auto& figure) { return figure.holds || !figure.reached; });

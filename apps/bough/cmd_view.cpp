@@ -5,6 +5,7 @@
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/manifest.hpp"
 #include "bough/io/run_store.hpp"
+#include "bough/io/unfinished_run.hpp"
 #include "bough/report/page.hpp"
 #include "bough/report/raster.hpp"
 #include "bough/study/case_folders.hpp"
@@ -61,7 +62,16 @@ int view(const ViewArguments& given) {
     std::cerr << "bough: " << error.what() << "\n";
     return exit_bad_input;
   }
-  const std::filesystem::path page = arguments.out.empty() ? arguments.directory / "view.html" : arguments.out;
+  const std::optional<io::UnfinishedRun> unfinished = io::find_unfinished_run(arguments.directory);
+  if (unfinished)
+    std::cerr << "bough: " << arguments.directory.string()
+              << (unfinished->goes_on ? " is being written: the page shows what is there of it now\n"
+                                      : " is of a run that did not end: the page shows what is there of it\n");
+  // The folder of a run that goes on is its writer's.
+  const bool has_own_folder = !unfinished || unfinished->place == arguments.directory;
+  std::filesystem::path page = has_own_folder ? arguments.directory / "view.html" : arguments.directory;
+  if (!has_own_folder) page += ".html";
+  if (!arguments.out.empty()) page = arguments.out;
   std::vector<std::filesystem::path> inputs;
   for (const char* name :
        {"history.csv", "history.npy", "columns.json", "motion.bin", "motion.pvd", "summary.json", io::manifest_name}) {

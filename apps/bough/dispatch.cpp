@@ -83,10 +83,14 @@ void add_run(CLI::App& app, RunArguments& a, int& code) {
                             "  bough run four_bar.json\n"
                             "  bough run four_bar.json --out results --threads 4\n"
                             "  bough run four_bar.json --set /analysis/step_size=1e-4 --set /output/motion=true\n"
-                            "Exit status: 0 done, 1 the run failed or was stopped, 2 bad input.");
+                            "  bough run four_bar.json --out results --resume\n"
+                            "Exit status: 0 done, 1 the run failed, 2 bad input, 3 stopped: --resume goes on.");
   verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
   verb.add_option("--out", a.out, "Directory of the results (default: ./<scene>.out)")->type_name("DIR");
   add_replace(verb, a.replace);
+  verb.add_flag(
+      "--resume", a.resume,
+      "Go on from the last checkpoint of the same scene and --set in the directory, or begin where there is none");
   add_threads(verb, a.threads, "Threads");
   add_overrides(verb, a.overrides);
   add_memory_limit(verb, a.memory_limit);
@@ -360,6 +364,14 @@ void add_compare(CLI::App& app, CompareArguments& a, int& code) {
   verb.callback([&] { code = compare(a); });
 }
 
+void add_status(CLI::App& app, StatusArguments& a, int& code) {
+  CLI::App& verb = add_verb(app, "status", "Tell how far a run, batch or sweep has come, while it goes on or later",
+                            "  bough status four_bar.out\n"
+                            "Exit status: 0 told, 2 there is nothing to tell of.");
+  verb.add_option("DIR", a.directory, "Directory that was given by --out")->required();
+  verb.callback([&] { code = status(a); });
+}
+
 void add_schema(CLI::App& app, SchemaArguments& a, int& code) {
   CLI::App& verb = add_verb(app, "schema", "Print the JSON Schema of scenes",
                             "  bough schema > scene.schema.json\n  bough schema --chain > chain.schema.json");
@@ -482,6 +494,7 @@ struct Arguments {
   CheckArguments check;
   ExpandArguments expand;
   CompareArguments compare;
+  StatusArguments status;
   SchemaArguments schema;
   DoctorArguments doctor;
   StudyArguments study;
@@ -512,6 +525,7 @@ constexpr Verb verbs[] = {
     {"check", add_verb_of<&Arguments::check, add_check>},
     {"expand", add_verb_of<&Arguments::expand, add_expand>},
     {"compare", add_verb_of<&Arguments::compare, add_compare>},
+    {"status", add_verb_of<&Arguments::status, add_status>},
     {"schema", add_verb_of<&Arguments::schema, add_schema>},
     {"doctor", add_verb_of<&Arguments::doctor, add_doctor>},
     {"study", add_verb_of<&Arguments::study, add_study>},

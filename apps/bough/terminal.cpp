@@ -49,6 +49,7 @@ void catch_interrupts(Repeated repeated) {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGUSR1, &action, nullptr);
   struct sigaction former = {};
   sigaction(SIGHUP, nullptr, &former);
   if (former.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup asks for that

@@ -11,7 +11,8 @@
 
 namespace bough::app {
 
-/// From now on Ctrl-C, SIGTERM and SIGHUP only set a flag; a second one of the same kind ends the process at once.
+/// From now on Ctrl-C, SIGTERM, SIGUSR1 (by which queues tell that time is running out) and SIGHUP only set a flag; a
+/// second one of the same kind ends the process at once.
 /// Under nohup SIGHUP stays ignored. Repeated::ignored: a second one sets the flag again; for a process whose parent
 /// ends it where it has to.
 enum class Repeated { ends, ignored };

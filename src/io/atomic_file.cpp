@@ -4,8 +4,10 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <stdexcept>
+#include <utility>
 
 #include "error_text.hpp"
 
@@ -64,7 +66,18 @@ void sync_directory(const std::filesystem::path& directory) {
 
 void sync_file(const std::filesystem::path& path) { sync_path(path, 0); }
 
-AtomicFile::AtomicFile(std::filesystem::path final_path)
+AtomicFile::AtomicFile(std::filesystem::path final_path) : AtomicFile(std::move(final_path), Content::replaced) {}
+
+std::unique_ptr<AtomicFile> AtomicFile::reopen(std::filesystem::path final_path) {
+  std::filesystem::path partial = final_path;
+  partial += ".partial";
+  if (std::error_code ignored; !std::filesystem::exists(std::filesystem::symlink_status(partial, ignored)) &&
+                               ::rename(final_path.c_str(), partial.c_str()) != 0)
+    throw std::runtime_error("cannot go on with " + final_path.string() + ": " + error_text(errno));
+  return std::unique_ptr<AtomicFile>(new AtomicFile(std::move(final_path), Content::kept));
+}
+
+AtomicFile::AtomicFile(std::filesystem::path final_path, Content content)
     : final_path_(std::move(final_path)), partial_path_(final_path_) {
   // Only regular files and links to them are replaced. A rename would put a file in the place of a device, a pipe or a
   // link to a folder.
@@ -81,15 +94,20 @@ AtomicFile::AtomicFile(std::filesystem::path final_path)
     ::close(descriptor);
     throw BeingWritten("cannot write " + final_path_.string() + ": another run is writing it");
   }
-  if (::ftruncate(descriptor, 0) != 0) {
+  if (content == Content::replaced && ::ftruncate(descriptor, 0) != 0) {
     const int error = errno;
     ::close(descriptor);
     fail(error);
   }
   descriptor_ = descriptor;
+  keeps_ = content == Content::kept;
+  if (keeps_) flushed_ = std::filesystem::file_size(partial_path_);
 }
 
-AtomicFile::~AtomicFile() { give_up(); }
+AtomicFile::~AtomicFile() {
+  if (keeps_ && descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+  give_up();
+}
 
 void AtomicFile::give_up() {
   if (descriptor_ < 0) return;
@@ -134,6 +152,23 @@ void AtomicFile::replace_front(std::string_view bytes) {
     fail(cause);
   }
   digest_anew_ = digest_of_file(partial_path_);
+}
+
+void AtomicFile::checkpoint(records::Archive& archive) {
+  if (!archive.is_reading()) {
+    flush();
+    if (const int error = sync_descriptor(descriptor_); error != 0) fail(error);
+  }
+  archive(flushed_, digest_);
+  if (!archive.is_reading()) return;
+  if (::ftruncate(descriptor_, static_cast<off_t>(std::min<std::uintmax_t>(
+                                   flushed_, std::filesystem::file_size(partial_path_)))) != 0 ||
+      ::lseek(descriptor_, static_cast<off_t>(flushed_), SEEK_SET) < 0)
+    fail(errno);
+  if (digest_of_file(partial_path_) != digest_.text())
+    throw std::runtime_error(partial_path_.string() + " is not as it was at the checkpoint");
+  digest_anew_.clear();
+  keeps_ = false;
 }
 
 void AtomicFile::start_writing_out() {

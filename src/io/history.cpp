@@ -128,30 +128,41 @@ void append_history_row(std::string& text, const records::HistoryRow& row) {
 }
 
 HistoryWriter::HistoryWriter(const std::filesystem::path& path, const records::HistoryHeader& header)
-    : file_(path), num_columns_(header.columns.size()), flushed_at_(std::chrono::steady_clock::now()) {
-  file_.write(history_head(header));
-  file_.flush();
+    : file_(std::make_unique<AtomicFile>(path)),
+      num_columns_(header.columns.size()),
+      flushed_at_(std::chrono::steady_clock::now()) {
+  file_->write(history_head(header));
+  file_->flush();
+}
+
+HistoryWriter::HistoryWriter(const std::filesystem::path& path, const records::HistoryHeader& header,
+                             records::Archive& archive)
+    : file_(AtomicFile::reopen(path)),
+      num_columns_(header.columns.size()),
+      flushed_at_(std::chrono::steady_clock::now()) {
+  checkpoint(archive);
 }
 
 void HistoryWriter::row(const records::HistoryRow& row) {
   if (row.values.size() != num_columns_) throw std::logic_error("HistoryWriter: a row must have one value per column");
   line_.clear();
   append_history_row(line_, row);
-  file_.write(line_);
+  file_->write(line_);
   ++rows_;
   const auto now = std::chrono::steady_clock::now();
   if (now - flushed_at_ < flush_interval) return;
-  file_.flush();
+  file_->flush();
   flushed_at_ = now;
 }
 
-History read_history(const std::filesystem::path& path) {
+History read_history(const std::filesystem::path& path, bool goes_on) {
   InputFile file(path);
   History history;
   std::string line;
   std::size_t number = 0;
   while (file.next_line(line)) {
     ++number;
+    if (goes_on && !file.ends_with_line_end()) break;
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (number == 1) {
       history.header = read_header(path, line);

@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "bough/io/json_value.hpp"
+#include "bough/io/printable_text.hpp"
 #include "bough/io/read_scene.hpp"
 
 namespace bough::io {
@@ -262,6 +263,25 @@ std::string syntax_hint(std::string_view rest, char before, bool after_zero) {
   return "";
 }
 
+/// The encoding of a text whose characters take two or four bytes each, known by its mark or by the zero bytes of its
+/// first character, which is ASCII in every JSON text; null: none of these.
+const char* wide_encoding(std::string_view text) {
+  const auto starts = [&](std::string_view s) { return text.substr(0, s.size()) == s; };
+  const auto is_zero = [&](std::size_t k) { return k < text.size() && text[k] == '\0'; };
+  if (starts({"\xFF\xFE\0\0", 4}) || starts({"\0\0\xFE\xFF", 4})) return "UTF-32";
+  if (starts("\xFF\xFE") || starts("\xFE\xFF")) return "UTF-16";
+  if (is_zero(0) == is_zero(1)) return is_zero(0) && is_zero(2) && !is_zero(3) && text.size() > 3 ? "UTF-32" : nullptr;
+  if (is_zero(1) && is_zero(2) && is_zero(3)) return "UTF-32";
+  return text.size() > 2 && is_zero(is_zero(0) ? 2 : 3) ? "UTF-16" : nullptr;
+}
+
+/// "the byte \xF6 is not UTF-8"
+std::string bad_byte_text(char byte) {
+  std::string text = "the byte ";
+  append_printable(text, {&byte, 1}, 0);
+  return text + " is not UTF-8";
+}
+
 bool Builder::parse_error(std::size_t position, const std::string& last_token, const nlohmann::detail::exception& e) {
   std::size_t end_of_last = cursor_;
   skip_gap();
@@ -277,6 +297,13 @@ bool Builder::parse_error(std::size_t position, const std::string& last_token, c
       rule = rule.substr(0, last) + (next == std::string::npos ? "" : rule.substr(next + 1));
     }
     if (what.find("invalid string") != std::string::npos && position > 0) offset = position - 1;
+  }
+  std::size_t bad = cursor_;
+  while (bad < text_.size() && utf8_length(text_.substr(bad)) > 0) bad += utf8_length(text_.substr(bad));
+  if (what.find("ill-formed UTF-8") != std::string::npos && bad < text_.size()) {
+    fault(bad, levels_.empty() ? "" : path(), "", bad_byte_text(text_[bad]),
+          "save the file as UTF-8; in files of one byte a character, as Latin-1, letters with accents have such bytes");
+    return false;
   }
   char before = end_of_last < cursor_ ? '\0' : ' ';
   for (std::size_t i = end_of_last; i < cursor_; ++i)
@@ -297,8 +324,8 @@ std::optional<JsonValue> parse_json(std::string_view text, std::int16_t source, 
     faults.push_back({0, "", "", "is larger than " + std::to_string(max_file_bytes >> 20u) + " MB", ""});
     return std::nullopt;
   }
-  if (text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF") {
-    faults.push_back({0, "", "", "is UTF-16", "save the file as UTF-8"});
+  if (const char* encoding = wide_encoding(text); encoding != nullptr) {
+    faults.push_back({0, "", "", std::string("is ") + encoding, "save the file as UTF-8"});
     return std::nullopt;
   }
   // The reader takes a zero byte for the end of the text, and would silently ignore what follows.

@@ -197,7 +197,7 @@ std::string start_of(const records::MotionFrame& f) {
 
 void MotionBytes::append(std::string& bytes, const records::MotionFrame& frame) {
   if (!start_) {
-    start_ = std::make_unique<records::MotionFrame>(frame);
+    start_ = frame;
     bytes += header_of(parts_, frame);
     bytes += start_of(frame);
   }
@@ -207,7 +207,7 @@ void MotionBytes::append(std::string& bytes, const records::MotionFrame& frame) 
 void MotionWriter::frame(const records::MotionFrame& frame) {
   std::string bytes;
   bytes_.append(bytes, frame);
-  file_.write(bytes);
+  file_->write(bytes);
 }
 
 }  // namespace bough::io

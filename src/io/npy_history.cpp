@@ -60,6 +60,17 @@ void NpyHistoryWriter::row(const records::HistoryRow& row) {
   kept_.clear();
 }
 
+void NpyHistoryWriter::checkpoint(records::Archive& archive) {
+  bool is_begun = has_begun();
+  archive(rows_, kept_, is_begun);
+  if (!is_begun) return;
+  if (archive.is_reading()) {
+    file_ = AtomicFile::reopen(path_);
+    file_->replace_front(npy_head(0, num_columns_));  // a run that was stopped has put the number of its rows there
+  }
+  file_->checkpoint(archive);
+}
+
 void NpyHistoryWriter::commit(Durability durability) {
   file_->flush();
   // After a failed write the file ends at some flush, which need not be the end of a row.

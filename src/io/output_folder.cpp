@@ -12,6 +12,7 @@
 
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/digest.hpp"
+#include "bough/io/input_file.hpp"
 #include "error_text.hpp"
 
 namespace bough::io {
@@ -138,6 +139,31 @@ void settle(const fs::path& staging, const fs::path& final) {
   remove_listed(staging);
 }
 
+/// Whether a staging folder holds rows of a run that was killed while it wrote them.
+bool has_rows_of_killed(const fs::path& staging) {
+  const std::optional<Manifest> there = read_manifest(staging);
+  const fs::path rows = staging / "history.csv.partial";
+  if (!there || there->state != FolderState::unfinished || there->made_by != "run" ||
+      is_folder(staging / former_name) || !fs::is_regular_file(fs::symlink_status(rows)))
+    return false;
+  const std::string text = read_text(rows);
+  return std::count(text.begin(), text.end(), '\n') > 1;
+}
+
+/// Makes failed results of them: files get their names, the history ends with its last whole row.
+void publish_rows_of_killed(const fs::path& staging, const fs::path& place, const std::string& instead_of) {
+  const fs::path rows = staging / "history.csv.partial";
+  fs::resize_file(rows, read_text(rows).rfind('\n') + 1);
+  for (const char* name : {"history.csv", "history.npy", "motion.bin"})
+    if (const fs::path partial = staging / (std::string(name) + ".partial"); fs::exists(fs::symlink_status(partial)))
+      fs::rename(partial, staging / name);
+  Manifest manifest = read_manifest(staging).value();
+  manifest.state = FolderState::failed;
+  manifest.instead_of = instead_of;
+  write_file(staging / manifest_name, manifest_text(manifest));
+  if (const int error = rename_to(staging, place); error != 0) fail(place, error);
+}
+
 /// Staging folder for results whose place is known.
 fs::path staging_at(const fs::path& place, bool stays) {
   return stays ? place / inner_name : place.parent_path() / ("." + place.filename().string() + ".bough-new");
@@ -150,8 +176,25 @@ fs::path OutputFolder::staging_of(const fs::path& folder) {
   return staging_at(place, has_to_stay(place));
 }
 
+std::vector<fs::path> OutputFolder::unfinished_in(const fs::path& folder, const Owner& owner) {
+  const fs::path final = resolved(folder);
+  std::vector<fs::path> places;
+  const auto look_at = [&](const fs::path& place, FolderState state, const std::string& instead_of) {
+    const std::optional<Manifest> there = is_folder(place) ? read_manifest(place) : std::nullopt;
+    if (there && there->state == state && (instead_of.empty() || there->instead_of == instead_of) &&
+        there->key == owner.key && !is_of_another(place, owner))
+      places.push_back(place);
+  };
+  look_at(staging_of(folder), FolderState::unfinished, "");
+  look_at(final, FolderState::failed, "");
+  for (const fs::directory_entry& entry : fs::directory_iterator(final.parent_path()))
+    if (entry.path().filename().string().starts_with(final.filename().string() + ".failed"))
+      look_at(entry.path(), FolderState::failed, final.filename().string());
+  return places;
+}
+
 OutputFolder::OutputFolder(fs::path folder, Owner owner, std::vector<std::string> names,
-                           const std::vector<fs::path>& inputs)
+                           const std::vector<fs::path>& inputs, const fs::path& resumed)
     : shown_(std::move(folder)), final_(resolved(shown_)), owner_(std::move(owner)), names_(std::move(names)) {
   refuse_inputs_within(inputs, final_);
   std::error_code error;
@@ -162,9 +205,13 @@ OutputFolder::OutputFolder(fs::path folder, Owner owner, std::vector<std::string
     throw std::runtime_error("cannot write into " + shown_.string() + ": not a directory");
   is_in_place_ = has_to_stay(final_);
   staging_ = staging_at(final_, is_in_place_);
+  if (!resumed.empty()) take_over(resumed);
   claim_staging();
   try {
-    settle_former_staging();
+    if (resumed.empty())
+      settle_former_staging();
+    else
+      remove_added();
     require_ours(final_, owner_);  // a batch that runs there is told at once, not waited for
     lock_final();
     require_ours(final_, owner_);
@@ -173,6 +220,32 @@ OutputFolder::OutputFolder(fs::path folder, Owner owner, std::vector<std::string
     fs::remove(staging_, error);  // removes it only if it is empty
     throw;
   }
+}
+
+/// Makes a place of unfinished results the staging folder; where the final folder stays, its entries go there.
+void OutputFolder::take_over(const fs::path& resumed) {
+  if (resumed == staging_) return;
+  if (FolderLock lock; !lock.take(resumed)) throw std::runtime_error(taken_by_another());
+  if (is_folder(staging_)) settle_former_staging();
+  fs::remove(staging_);
+  if (is_in_place_ && resumed == final_) {
+    const std::vector<std::string> names = top_names(final_);
+    if (::mkdir(staging_.c_str(), 0777) != 0) fail(shown_, errno);
+    if (const int error = move_names(names, final_, staging_); error != 0) fail(shown_, error);
+  } else if (const int error = rename_to(resumed, staging_); error != 0) {
+    fail(shown_, error);
+  }
+}
+
+/// Removes what was added to unfinished results since, as a page that shows them.
+void OutputFolder::remove_added() {
+  const auto is_of_writer = [this](const FileRecord& file) {
+    return std::any_of(names_.begin(), names_.end(), [&](const std::string& name) {
+      return name.ends_with('*') ? file.name.starts_with(name.substr(0, name.size() - 1)) : file.name == name;
+    });
+  };
+  for (const FileRecord& file : read_manifest(staging_).value_or(Manifest{}).files)
+    if (!is_of_writer(file)) fs::remove(staging_ / file.name);
 }
 
 std::string OutputFolder::taken_by_another() const {
@@ -217,8 +290,37 @@ void OutputFolder::settle_former_staging() {
     settle(inner, final_);
   }
   if (fs::is_empty(staging_)) return;
-  settle(staging_, final_);
+  keep_of_killed();
+  if (is_folder(staging_)) settle(staging_, final_);
   claim_staging();
+}
+
+/// What a run that was killed had recorded is kept beside the folder, as failed results under a name of their own, and
+/// so is not removed by the next run. A case of a batch runs again, and its batch keeps what it needs.
+void OutputFolder::keep_of_killed() {
+  if (!owner_.key.empty() || !has_rows_of_killed(staging_)) return;
+  const fs::path parent = can_move_to(staging_, final_.parent_path()) ? final_.parent_path() : final_;
+  fs::path place = parent / (final_.filename().string() + ".failed");
+  for (int k = 2; fs::exists(fs::symlink_status(place)); ++k)
+    place = parent / (final_.filename().string() + ".failed." + std::to_string(k));
+  publish_rows_of_killed(staging_, place, final_.filename().string());
+  kept_of_killed_ = place;
+}
+
+fs::path OutputFolder::keep_of_killed(const fs::path& folder, const Owner& owner) {
+  const fs::path final = resolved(folder), staging = staging_of(folder);
+  FolderLock lock;
+  if (!lock.take(staging) || !has_rows_of_killed(staging)) return {};
+  fs::path place = final;
+  if (is_folder(final)) {
+    require_ours(final, owner);
+    const std::optional<Manifest> former = read_manifest(final);
+    const bool is_good = former && former->state == FolderState::good;
+    if (is_good) place += ".failed";
+    if (is_folder(place)) remove_whole(place);  // an earlier failed attempt
+  }
+  publish_rows_of_killed(staging, place, place == final ? "" : final.filename().string());
+  return place == final ? folder : place;
 }
 
 /// Lists the files from the start, in case the run is killed.

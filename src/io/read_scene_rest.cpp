@@ -278,6 +278,8 @@ void Converter::settings() {
     scene.output.motion = o->find("motion")->truth;
     if (const Value* n = o->find("motion_stride")) scene.output.motion_stride = whole_number<int>(n->number);
     scene.output.checks = o->find("checks")->truth;
+    scene.output.checkpoint = number_or(*o, "checkpoint", 300.0);
+    scene.output.checkpoint_time = number_or(*o, "checkpoint_time", 0.0);
   }
   if (const Value* w = sound("without"))
     for (const Value& name : w->items) scene.without.push_back(name.text);

@@ -1,10 +1,13 @@
 #include "bough/io/run_directory.hpp"
 
+#include <cmath>
 #include <stdexcept>
 #include <system_error>
 
 #include "bough/io/columns.hpp"
 #include "bough/io/input_file.hpp"
+#include "bough/io/number_text.hpp"
+#include "bough/io/unfinished_run.hpp"
 
 namespace bough::io {
 namespace {
@@ -17,8 +20,11 @@ constexpr bool has_vtk = true;
 constexpr bool has_vtk = false;  // the code below it is not compiled, since vtu_text is not available
 #endif
 
-const std::vector<std::string> all_names = {"history.csv", "history.npy",    "columns.json", "motion.bin",
-                                            "motion.pvd",  "motion/frame_*", "summary.json"};
+const std::vector<std::string> all_names = {"history.csv",  "history.npy",  "columns.json",
+                                            "motion.bin",   "motion.pvd",   "motion/frame_*",
+                                            "summary.json", "checkpoint.*", "progress.json"};
+constexpr std::string_view checkpoint_format = "bough checkpoint 1";
+constexpr std::size_t most_checkpoint_bytes = std::size_t{1} << 36u;
 
 std::string frame_name(std::size_t number) {
   std::string digits = std::to_string(number);
@@ -34,13 +40,161 @@ void make_directory(const fs::path& path) {
 
 }  // namespace
 
-RunDirectory::RunDirectory(fs::path directory, std::string version, RunOrigin origin, bool replaces)
-    : directory_(std::move(directory)), version_(std::move(version)), origin_(std::move(origin)), replaces_(replaces) {}
+RunDirectory::RunDirectory(fs::path directory, std::string version, RunOrigin origin, bool replaces,
+                           CheckpointRule rule)
+    : directory_(std::move(directory)),
+      version_(std::move(version)),
+      origin_(std::move(origin)),
+      replaces_(replaces),
+      rule_(rule) {}
 
 void RunDirectory::open() {
   if (folder_) return;
   const Owner owner{"run", origin_.scene_file, origin_.key, replaces_};
-  folder_ = std::make_unique<OutputFolder>(directory_, owner, all_names, origin_.inputs());
+  if (rule_.resumes)
+    for (const fs::path& place : OutputFolder::unfinished_in(directory_, owner))
+      if (!from_) from_ = last_checkpoint_in(place);
+  folder_ =
+      std::make_unique<OutputFolder>(directory_, owner, all_names, origin_.inputs(), from_ ? from_->place : fs::path());
+  if (from_)
+    told_.push_back("going on from time " + rounded_text(from_->time, 6));
+  else if (rule_.resumes)
+    told_.push_back("there is no checkpoint to go on from: the run begins");
+  if (!folder_->kept_of_killed().empty())
+    told_.push_back("what a run that was killed had recorded stands in " + folder_->kept_of_killed().string() +
+                    (rule_.resumes ? "" : ", and --resume goes on from its last checkpoint"));
+}
+
+/// A checkpoint belongs to a scene with all that was changed in it, or to a case, and to a program.
+std::string RunDirectory::identity() const {
+  std::string what = origin_.key.empty() ? origin_.scene_hash : origin_.key;
+  for (const std::string& text : origin_.overrides) what += "\n" + text;
+  return digest_of(what);
+}
+
+/// The later of both checkpoints of a folder that can be used.
+std::optional<RunDirectory::Checkpoint> RunDirectory::last_checkpoint_in(const fs::path& place) {
+  std::optional<Checkpoint> last;
+  for (const char* name : {"checkpoint.1", "checkpoint.2"}) {
+    if (!fs::exists(fs::symlink_status(place / name))) continue;
+    std::optional<Checkpoint> one = read_checkpoint(place / name);
+    if (one && (!last || one->number > last->number)) last = std::move(one);
+  }
+  return last;
+}
+
+/// Head: format, program, identity, number, time, bytes that follow, their hash; in words, so that it can be told what
+/// a file is that cannot be used.
+std::optional<RunDirectory::Checkpoint> RunDirectory::read_checkpoint(const fs::path& file) {
+  const auto unusable = [&](const std::string& why) {
+    told_.push_back(file.string() + " cannot be used: " + why);
+    return std::nullopt;
+  };
+  std::string bytes;
+  try {
+    bytes = read_text(file, most_checkpoint_bytes);
+  } catch (const Unreadable& fault) {
+    return unusable(fault.why());
+  }
+  const std::size_t end = bytes.find('\n');
+  std::vector<std::string> words;
+  if (end == std::string::npos || !split_csv_line(std::string_view(bytes).substr(0, end), words) || words.size() != 7 ||
+      !words[0].starts_with("bough checkpoint"))
+    return unusable("it is not a checkpoint, or was cut off");
+  if (words[0] != checkpoint_format) return unusable("it has the format of another version, \"" + words[0] + "\"");
+  if (words[1] != origin_.program_hash) return unusable("another program has written it");
+  if (words[2] != identity()) return unusable("it is of another scene, or of other values of --set");
+  Checkpoint checkpoint{file.parent_path(), 0, 0.0, bytes.substr(end + 1)};
+  double number = 0.0, size = 0.0;
+  if (!read_number(words[3], number) || !read_number(words[4], checkpoint.time) || !read_number(words[5], size))
+    return unusable("its first line is damaged");
+  checkpoint.number = whole_number<long>(number);
+  if (static_cast<double>(checkpoint.bytes.size()) != size) return unusable("it was cut off");
+  if (digest_of(checkpoint.bytes) != words[6]) return unusable("it is damaged");
+  return checkpoint;
+}
+
+void RunDirectory::note_progress(const records::Progress& progress) {
+  constexpr auto interval = std::chrono::seconds(2);
+  const auto now = std::chrono::steady_clock::now();
+  if (now - told_at_ < interval || !folder_) return;
+  told_at_ = now;
+  const std::chrono::duration<double> seconds = now - begun_at_;
+  write_file(
+      folder_->staging() / "progress.json",
+      progress_text({progress.time, progress.end_time, progress.step, seconds.count(), from_ ? from_->time : 0.0}),
+      Durability::later);
+}
+
+bool RunDirectory::is_checkpoint_due(double time, bool is_last) {
+  time_ = time;
+  if (!keeps_checkpoints()) return false;
+  const std::chrono::duration<double> since = std::chrono::steady_clock::now() - kept_at_;
+  return is_last || since.count() >= rule_.wall_clock ||
+         (rule_.time > 0.0 && std::abs(time - kept_time_) >= rule_.time);
+}
+
+void RunDirectory::checkpoint(std::string_view state) {
+  records::Archive archive;
+  for (; synced_frames_ < frame_records_.size(); ++synced_frames_)
+    sync_file(folder_->staging() / frame_records_[synced_frames_].name);
+  take_files(archive, {});
+  const std::string bytes = archive.bytes() + std::string(state);
+  ++num_checkpoints_;
+  std::string head = std::string(checkpoint_format) + "," + origin_.program_hash + "," + identity() + "," +
+                     std::to_string(num_checkpoints_) + ",";
+  append_number(head, time_);
+  head += "," + std::to_string(bytes.size()) + "," + digest_of(bytes);
+  AtomicFile file(folder_->staging() / (num_checkpoints_ % 2 == 1 ? "checkpoint.1" : "checkpoint.2"));
+  file.write(head + "\n");
+  file.write(bytes);
+  file.commit();
+  kept_at_ = std::chrono::steady_clock::now();
+  kept_time_ = time_;
+}
+
+/// Positions in all files; where they are read, the files are cut back to these and gone on with.
+void RunDirectory::take_files(records::Archive& archive, const records::HistoryHeader& header) {
+  const fs::path& staging = folder_->staging();
+  bool has_motion = motion_ != nullptr;
+  archive(has_motion, frames_, frame_records_);
+  if (archive.is_reading()) {
+    history_ = std::make_unique<HistoryWriter>(staging / "history.csv", header, archive);
+    twin_ = std::make_unique<NpyHistoryWriter>(staging / "history.npy", header);
+    if (has_motion) motion_ = std::make_unique<MotionWriter>(staging / "motion.bin", archive);
+  } else {
+    archive(*history_);
+    if (has_motion) archive(*motion_);
+  }
+  archive(*twin_);
+}
+
+std::string RunDirectory::resume(const records::HistoryHeader& header) {
+  open();
+  if (!from_) return {};
+  records::Archive archive(from_->bytes);
+  take_files(archive, header);
+  fs::remove(folder_->staging() / "summary.json");  // of the part before; the run has not ended now
+  columns_ = columns_text(header);
+  num_checkpoints_ = from_->number;
+  kept_time_ = from_->time;
+  synced_frames_ = frame_records_.size();
+  return std::string(archive.rest());
+}
+
+/// Checkpoints stay with results that a run can go on from; others have no use for them.
+void RunDirectory::settle_checkpoints(records::RunStatus status) {
+  can_go_on_ = false;
+  for (const char* name : {"checkpoint.1", "checkpoint.2"}) {
+    const fs::path file = folder_->staging() / name;
+    if (!fs::exists(fs::symlink_status(file))) continue;
+    const bool stays = status != records::RunStatus::ok && (status == records::RunStatus::interrupted || was_cut_off_);
+    can_go_on_ = can_go_on_ || stays;
+    if (stays)
+      folder_->add({name, fs::file_size(file), digest_of_file(file)});
+    else
+      fs::remove(file);
+  }
 }
 
 void RunDirectory::begin(const records::HistoryHeader& header) {
@@ -48,6 +202,7 @@ void RunDirectory::begin(const records::HistoryHeader& header) {
   history_ = std::make_unique<HistoryWriter>(folder_->staging() / "history.csv", header);
   twin_ = std::make_unique<NpyHistoryWriter>(folder_->staging() / "history.npy", header);
   columns_ = columns_text(header);
+  write_file(folder_->staging() / "columns.json", columns_, Durability::later);  // for readers while the run goes on
 }
 
 void RunDirectory::row(const records::HistoryRow& row) {
@@ -134,8 +289,12 @@ void RunDirectory::end(const records::Summary& summary) {
       failure = std::current_exception();
     }
   }
+  std::error_code ignored;
+  fs::remove(folder_->staging() / "progress.json", ignored);
   const bool is_good = !failure && summary.status == records::RunStatus::ok;
+  was_cut_off_ = was_cut_off_ || failure;
   try {
+    settle_checkpoints(is_good ? records::RunStatus::ok : summary.status);
     folder_->publish(is_good ? FolderState::good : FolderState::failed);
   } catch (...) {
     if (!failure) failure = std::current_exception();
@@ -144,27 +303,8 @@ void RunDirectory::end(const records::Summary& summary) {
 }
 
 std::optional<fs::path> RunDirectory::keep_rows_of_killed(const fs::path& directory, const Owner& owner) {
-  std::string rows, twin;
-  {
-    FolderLock lock;
-    const fs::path staging = OutputFolder::staging_of(directory);
-    if (!lock.take(staging) || !read_manifest(staging)) return std::nullopt;
-    const auto bytes_of = [&](const char* name) {
-      return fs::exists(staging / name) ? read_text(staging / name) : std::string();
-    };
-    rows = bytes_of("history.csv.partial");
-    twin = bytes_of("history.npy.partial");
-  }
-  rows.resize(rows.rfind('\n') + 1);  // complete rows only; npos + 1 is 0
-  if (rows.empty()) return std::nullopt;
-  std::vector<std::string> columns;
-  if (split_csv_line(std::string_view(rows).substr(0, rows.find('\n')), columns))
-    twin = repaired_npy(std::move(twin), columns.size());
-  OutputFolder folder(directory, owner, all_names);
-  folder.write("history.csv", rows);
-  if (!twin.empty()) folder.write("history.npy", twin);
-  folder.publish(FolderState::failed);
-  return folder.folder();
+  const fs::path kept = OutputFolder::keep_of_killed(directory, owner);
+  return kept.empty() ? std::nullopt : std::optional(kept);
 }
 
 fs::path RunDirectory::keep_rows(const fs::path& directory, const Owner& owner, std::string_view rows) {
@@ -178,6 +318,7 @@ void RunDirectory::end_as_failed(records::Summary summary, const std::string& ca
   if (!has_begun() || has_ended()) return;
   summary.status = records::RunStatus::failed;
   summary.cause = cause;
+  was_cut_off_ = true;
   end(summary);
 }
 

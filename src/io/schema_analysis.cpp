@@ -29,7 +29,7 @@ struct KindOptions {
 int whole(const Value& v) { return whole_number<int>(v.number); }
 
 /// Sets a number where the object has one for this key.
-void read_number(const Value& object, const char* key, double& number) {
+void take_number_of(const Value& object, const char* key, double& number) {
   if (const Value* v = object.find(key)) number = v->number;
 }
 
@@ -88,9 +88,9 @@ Option arc_length() {
   return {may("arc_length", made(std::move(rule)), "Statics past limit points. Default: load steps."),
           [](const Value& v, Analysis& a) {
             scene::ArcLength& l = a.arc_length.emplace();
-            read_number(v, "step", l.step);
-            read_number(v, "largest_step", l.largest_step);
-            read_number(v, "end_load_factor", l.end_load_factor);
+            take_number_of(v, "step", l.step);
+            take_number_of(v, "largest_step", l.largest_step);
+            take_number_of(v, "end_load_factor", l.end_load_factor);
             l.max_steps = whole(*v.find("max_steps"));
             if (const Value* after = v.find("after_limit_points")) l.after_limit_points = whole(*after);
             if (const Value* end = v.find("end_at_limit_point")) l.end_at_limit_point = whole(*end);
@@ -113,12 +113,12 @@ Option step_control() {
               "steps of equal size."),
           [](const Value& v, Analysis& a) {
             scene::StepControl& c = a.step_control.emplace();
-            read_number(v, "tolerance", c.tolerance);
-            read_number(v, "position_tolerance", c.position_tolerance);
-            read_number(v, "rotation_tolerance", c.rotation_tolerance);
-            read_number(v, "velocity_tolerance", c.velocity_tolerance);
-            read_number(v, "angular_velocity_tolerance", c.angular_velocity_tolerance);
-            read_number(v, "largest_step", c.largest_step);
+            take_number_of(v, "tolerance", c.tolerance);
+            take_number_of(v, "position_tolerance", c.position_tolerance);
+            take_number_of(v, "rotation_tolerance", c.rotation_tolerance);
+            take_number_of(v, "velocity_tolerance", c.velocity_tolerance);
+            take_number_of(v, "angular_velocity_tolerance", c.angular_velocity_tolerance);
+            take_number_of(v, "largest_step", c.largest_step);
           }};
 }
 

@@ -358,7 +358,12 @@ void add_settings(RuleTable& t) {
            "Pictures: every n-th step. Default: at most 101, evenly over the run, and further ones wherever a part has "
            "turned by a quarter of a radian; fewer where they would take more than 200 MB; of statics by arc length "
            "every step."),
-       may("checks", boolean_rule(""), "Balances and constraint violations, at history rows.", "true")}));
+       may("checks", boolean_rule(""), "Balances and constraint violations, at history rows.", "true"),
+       may("checkpoint", number_rule("", 0.0, false),
+           "Wall clock between two checkpoints [s], from which `bough run --resume` goes on; 0: there are none.",
+           "300"),
+       may("checkpoint_time", positive(""),
+           "Further checkpoints after so much time of the run [s], or load factor. Default: none.")}));
   t.named["expected"] = made(object_of(
       "A figure the run has to meet. It is taken from all accepted steps, whatever the stride of the output. A time "
       "within a "

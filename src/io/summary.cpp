@@ -1,7 +1,11 @@
 #include "bough/io/summary.hpp"
 
+#include <sys/stat.h>
+
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 
 #include "bough/io/columns.hpp"
 #include "bough/io/digest.hpp"
@@ -9,6 +13,7 @@
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
 #include "bough/io/number_text.hpp"
+#include "bough/io/output_folder.hpp"
 #include "bough/lanes/instruction_set.hpp"
 
 namespace bough::io {
@@ -423,6 +428,27 @@ bool is_as_listed(const std::filesystem::path& path, const std::optional<Manifes
 }
 
 }  // namespace
+
+std::string state_of_folder(const std::filesystem::path& directory) {
+  std::string state;
+  for (const std::filesystem::path& path : {directory, directory / manifest_name}) {
+    struct stat there = {};
+    if (::stat(path.c_str(), &there) != 0) continue;
+    state += std::to_string(there.st_dev) + ":" + std::to_string(there.st_ino) + " ";
+  }
+  return state;
+}
+
+bool is_settled(const std::filesystem::path& directory, const std::string& state) {
+  constexpr auto pause = std::chrono::milliseconds(20);
+  if (state_of_folder(directory) != state) return false;
+  std::error_code ignored;
+  if (std::filesystem::exists(directory / manifest_name, ignored) ||
+      !std::filesystem::exists(OutputFolder::staging_of(directory), ignored))
+    return true;
+  std::this_thread::sleep_for(pause);
+  return false;
+}
 
 SummaryFile read_whole_summary(const std::filesystem::path& directory, const std::vector<std::string>& names) {
   const std::string run_again = "; run the scene again, into a new folder";

@@ -6,6 +6,7 @@
 #include "bough/io/columns.hpp"
 #include "bough/io/motion_frames.hpp"
 #include "bough/io/number_text.hpp"
+#include "bough/io/unfinished_run.hpp"
 #include "bough/report/document.hpp"
 #include "bough/report/plot.hpp"
 #include "round_off.hpp"
@@ -199,9 +200,29 @@ std::string_view time_label(const RunFiles& run) {
   return run.is_by_step ? "step" : is_static(run) ? "load factor" : "time [s]";
 }
 
-RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames) {
+namespace {
+
+/// What is there of a run that has not ended.
+RunFiles read_run_so_far(const io::UnfinishedRun& unfinished, const std::string& name, std::size_t max_frames) {
+  RunFiles run;
+  run.name = name;
+  run.history = io::read_rows_so_far(unfinished);
+  if (const auto columns = io::file_so_far(unfinished, "columns.json"); !columns.empty())
+    io::read_columns(columns, run.history.header);
+  if (const auto motion = io::file_so_far(unfinished, "motion.bin"); !motion.empty()) try {
+      io::Motion read = io::read_motion_file(motion, max_frames);
+      run.motion = std::move(read.frames);
+      run.parts = std::move(read.parts);
+    } catch (const std::runtime_error&) {  // nothing of it is on the disk yet
+    }
+  return run;
+}
+
+RunFiles read_run_once(const std::filesystem::path& directory, std::size_t max_frames) {
   RunFiles run;
   run.name = std::filesystem::absolute(directory).lexically_normal().stem().string();
+  if (const auto unfinished = io::find_unfinished_run(directory))
+    return read_run_so_far(*unfinished, run.name, max_frames);
   run.summary = io::read_whole_summary(directory, {"history.csv", "columns.json", "motion.bin"});
   run.history = io::read_history(directory / "history.csv");
   io::read_columns(directory / "columns.json", run.history.header);
@@ -212,6 +233,12 @@ RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames
     run.parts = std::move(motion.parts);
   }
   return run;
+}
+
+}  // namespace
+
+RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames) {
+  return io::read_unchanged(directory, [&] { return read_run_once(directory, max_frames); });
 }
 
 std::string page_html(const RunFiles& run, const PictureOptions& options, const RunFiles* other) {

@@ -22,10 +22,18 @@ class Account {
   records::Summary& summary() { return summary_; }
   const records::Summary& summary() const { return summary_; }
 
+  void checkpoint(records::Archive& archive) {
+    archive(summary_, repeated_, largest_force_, unbalanced_force_, first_rejection_, not_unique_, last_dependent_rows_,
+            dependent_rows_, least_dependent_rows_, dependent_since_);
+  }
+
   /// Sets the status to failed. Always returns false, so that callers can return the result.
   bool fail(const std::string& cause);
   /// Sets the status to interrupted. Always returns false.
   bool interrupt(const std::string& cause);
+  /// Asks to be interrupted for this cause after the present step; why_to_stop: empty: nobody did.
+  void ask_to_stop(const std::string& cause) { why_to_stop_ = cause; }
+  const std::string& why_to_stop() const { return why_to_stop_; }
   /// Adds a note, unless the summary has it already. Notes that differ in numbers alone are two: the first, and how many
   /// followed with the last of them.
   void note(const std::string& text);
@@ -70,7 +78,7 @@ class Account {
   records::Summary summary_;
   std::unordered_map<std::string, Repeated> repeated_;   ///< by notes without their numbers
   double largest_force_ = 0.0, unbalanced_force_ = 0.0;  ///< in accepted steps; in those at the round-off floor [N]
-  std::string first_rejection_, not_unique_;
+  std::string first_rejection_, not_unique_, why_to_stop_;
   int last_dependent_rows_ = 0, dependent_rows_ = 0, least_dependent_rows_ = std::numeric_limits<int>::max();
   double dependent_since_ = 0.0;  ///< time or load factor at which the largest number was met first
 };

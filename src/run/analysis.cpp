@@ -29,18 +29,18 @@ bool Analysis::may_try(double target) {
   return account().interrupt("stopped before the step to " + std::to_string(target));
 }
 
-bool Analysis::report_progress(const step::StepReport& report, double end) {
-  if (!progress_) return true;
+void Analysis::report_progress(const step::StepReport& report, double end) {
+  if (!progress_) return;
   records::Progress p;
   p.time = state_.time;
   p.end_time = end;
   p.step_size = last_step_;
   p.iterations = report.iterations;
   p.step = summary().steps.accepted;
-  if (progress_(p)) return true;
+  if (progress_(p)) return;
   const auto& stopped_by = asked_.stopped_by;
-  return account().interrupt("stopped by " + (stopped_by ? stopped_by() : std::string("the user")) + " at time " +
-                             std::to_string(state_.time));
+  account().ask_to_stop("stopped by " + (stopped_by ? stopped_by() : std::string("the user")) + " at time " +
+                        std::to_string(state_.time));
 }
 
 std::vector<double> Analysis::stops_between(double begin, double end) const {

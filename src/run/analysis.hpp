@@ -38,6 +38,13 @@ class Analysis {
   /// To be called after the state was restored to the moment at which this copy was made. Recomputes what the system
   /// holds for the next step.
   virtual void come_back();
+  /// To be called where the run stops after an accepted step that does not end it.
+  virtual void stop() {}
+
+  /// Writes or reads what the analysis keeps between two steps.
+  virtual void checkpoint(records::Archive& archive) { archive(last_step_); }
+  /// As step::Integrator.
+  virtual bool write_matrices(long /*matrices*/) { return false; }
 
   /// Contributions of the analysis at the end of a run: notes, figures of the summary, and doubts in addition to those
   /// that follow from the summary.
@@ -66,9 +73,10 @@ class Analysis {
   void count(const step::StepReport& report) { account().count(report, state_); }
   /// Records the present state, after a step of size `last_step_`.
   void record(int iterations, bool is_last) { recording_.record(state_, last_step_, iterations, is_last); }
-  /// Callbacks: whether a step to `target` may be attempted, and the report of an accepted step on the way to `end`.
+  /// Callbacks: whether a step to `target` may be attempted, and the report of an accepted step on the way to `end`,
+  /// after which the run may be asked to stop.
   bool may_try(double target);
-  bool report_progress(const step::StepReport& report, double end);
+  void report_progress(const step::StepReport& report, double end);
   /// Times at which steps have to end within a stretch: those of expected figures, those requested, and the end of the
   /// stretch.
   std::vector<double> stops_between(double begin, double end) const;

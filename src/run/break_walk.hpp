@@ -20,6 +20,7 @@ class BreakWalk {
   /// step are merged.
   [[nodiscard]] bool next(double begin, double& end);
   const std::string& fault() const { return fault_; }
+  void checkpoint(records::Archive& archive) { archive(found_, at_, searched_to_, stretch_, fault_); }
 
  private:
   bool search(double end);

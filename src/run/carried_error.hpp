@@ -33,6 +33,10 @@ class CarriedError {
   void choose_stride(const step::State& state, double turn, double steps_left);
   /// The far side of a jump.
   void restart(double time);
+  void checkpoint(records::Archive& archive) {
+    archive(local_, transport_, budget_, stride_, since_, has_first_, largest_early_, largest_, reaction_, too_much_,
+            all_, unresolved_);
+  }
 
   const step::ErrorTransport& transport() const { return transport_; }
   /// The time in which errors grew by e in the later half of the run [s]; 0: no faster than by a power of time.

@@ -22,6 +22,8 @@ class Conservation {
   const results::Balance& balance() const { return balance_; }
   double mass() const { return work_meter_.mass(); }  ///< of the whole structure [kg]
 
+  void checkpoint(records::Archive& archive) { archive(work_meter_, balance_, open_joint_, fast_joint_); }
+
   /// Starts the balances at the consistent initial state.
   void begin(const step::State& state);
   /// Continues the balances after a jump in a load or a motion. before: energies before the jump.

@@ -25,6 +25,7 @@ class EnergyError {
   /// size of the structure per duration of the run.
   double eval(const step::System& system, const step::State& after, const step::State& disturbed,
               results::EnergyMeter& meter);
+  void checkpoint(records::Archive& archive) { archive(largest_, first_potential_, has_first_); }
 
  private:
   bool of_kinetic_ = false, of_strain_ = false, of_potential_ = false, of_total_ = false;

@@ -62,6 +62,11 @@ class ErrorWatch {
   /// the largest energy so far.
   void see_energies(double time, double kinetic, double other, double taken, double largest);
 
+  void checkpoint(records::Archive& archive) {
+    archive(columns_, least_range_, passed_, certain_part_, followed_, has_looked_, has_carried_, takes_carried_,
+            rated_, has_energies_, begin_, last_time_, taken_, kinetic_, other_, last_taken_, least_other_, largest_);
+  }
+
   /// Estimated errors of all columns of motion sensors, in the order of the header.
   std::vector<records::SensorError> errors(const records::HistoryHeader& header) const;
 

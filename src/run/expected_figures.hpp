@@ -41,6 +41,8 @@ class ExpectedFigures {
   /// Records the cause why there is no value at this load factor.
   void note_missing(double time, const std::string& cause);
 
+  void checkpoint(records::Archive& archive) { archive(figures_, next_sample_, window_, num_seen_); }
+
   /// Results of all figures, compared with the expected values of the scene.
   std::vector<records::ExpectedResult> results(const records::Summary& summary) const;
 
@@ -67,6 +69,9 @@ class ExpectedFigures {
     bool has_ends = false;
     long crossings = 0;
     double first_crossing = 0.0, last_crossing = 0.0;
+    void checkpoint(records::Archive& archive) {
+      archive(value, distance, how, most, least, low, high, has_ends, crossings, first_crossing, last_crossing);
+    }
   };
 
   void look_on(step::System& system, const step::State& state, results::EnergyMeter& meter);

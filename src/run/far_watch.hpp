@@ -18,6 +18,7 @@ class FarWatch {
   void see(const std::vector<double>& values);
   /// The force that has the fewest digits, in words; empty: all have enough.
   std::string text() const;
+  void checkpoint(records::Archive& archive) { archive(forces_); }
 
  private:
   struct Force {
@@ -27,6 +28,7 @@ class FarWatch {
     double distance;       ///< |x| [m]
     double largest = 0.0;  ///< so far [N]
     std::size_t sensor;
+    void checkpoint(records::Archive& archive) { archive(largest); }
   };
   std::vector<Force> forces_;
 };

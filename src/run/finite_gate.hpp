@@ -32,6 +32,7 @@ class FiniteGate {
 
   /// Empty if everything checked is finite; else the time, what is not finite, where, and what to do.
   const std::string& cause() const { return cause_; }
+  void checkpoint(records::Archive& archive) { archive(cause_); }
 
  private:
   static std::string_view not_finite_in(const results::Energies& energies);

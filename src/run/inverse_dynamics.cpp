@@ -38,7 +38,13 @@ class InverseDynamics final : public Analysis {
   }
   bool take_step() override {
     const double from = state_.time, to = next_time();
-    return may_try(to) && go_to(to) && accept(to - from) && report_progress(reached(), end());
+    if (!(may_try(to) && go_to(to) && accept(to - from))) return false;
+    report_progress(reached(), end());
+    return true;
+  }
+  void checkpoint(records::Archive& archive) override {
+    Analysis::checkpoint(archive);
+    archive(allowed_, has_begun_, next_);
   }
   bool is_done() const override { return !(state_.time < end()); }
   bool ends_in_correction() const override { return false; }

@@ -21,6 +21,7 @@ class LawWatch {
   void pass(double begin, double end);
   /// Which law the steps do not see, in words; empty: they see all.
   std::string text() const;
+  void checkpoint(records::Archive& archive) { archive(stretches_); }
 
  private:
   struct Stretch {

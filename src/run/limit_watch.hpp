@@ -15,6 +15,7 @@ class LimitWatch {
   /// Counts an accepted step whose size was limited by an error, or by the largest size allowed.
   void count(const step::ErrorLimit& limit);
   void count_largest() { ++at_largest_; }
+  void checkpoint(records::Archive& archive) { archive(of_beam_, of_node_, of_signal_, at_largest_, of_energy_, all_); }
   /// A note on the most frequent limit; none if nothing was counted.
   std::optional<std::string> text(const plan::Plan& plan, double tolerance) const;
 

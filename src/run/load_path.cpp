@@ -249,7 +249,8 @@ bool LoadPath::take_step() {
   length_ *= std::clamp(std::sqrt(static_cast<double>(wanted_iterations) / report.iterations), shortest_part,
                         cuts > 0 ? 1.0 : longest_part);
   length_ = std::min(length_, largest);
-  return report_progress(report, arc.end_load_factor);
+  report_progress(report, arc.end_load_factor);
+  return true;
 }
 
 }  // namespace bough::run

@@ -20,6 +20,11 @@ class LoadPath final : public Statics {
   bool take_step() override;
   bool is_done() const override { return is_done_; }
   void come_back() override;
+  void checkpoint(records::Archive& archive) override {
+    Statics::checkpoint(archive);
+    archive.present(path_, [this] { path_.emplace(system_, options_); });
+    archive(length_, is_done_);
+  }
 
  private:
   /// A step along the path with the limit point, the end of the run and the bifurcations found in it.

@@ -97,7 +97,8 @@ bool LoadSteps::take_step() {
       from_ = stop;
       if (++next_stop_ == stops_.size() && ++step_ < num_steps_) begin_load_step();
     }
-    return report_progress(report, 1.0);
+    report_progress(report, 1.0);
+    return true;
   }
 }
 

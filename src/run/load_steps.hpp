@@ -20,6 +20,10 @@ class LoadSteps final : public Statics {
   bool is_done() const override { return step_ == num_steps_; }
   void add_doubts() override;
   void add_notes() override;
+  void checkpoint(records::Archive& archive) override {
+    Statics::checkpoint(archive);
+    archive(step_, stops_, next_stop_, from_, level_, part_, jumps_, most_level_, most_cut_at_);
+  }
 
  private:
   void begin_load_step();

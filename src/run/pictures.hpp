@@ -28,6 +28,9 @@ class Pictures {
                                                     const records::MotionParts& parts);
   /// Counts the picture of this time. Returns whether a VTU file for other programs is written of it, too.
   bool take(double time, bool is_last);
+  void checkpoint(records::Archive& archive) {
+    archive(stride_, most_intervals_, next_, others_every_, taken_, taken_by_turn_, most_by_turn_, is_first_);
+  }
 
  private:
   bool is_passed(double time, int interval) const;

@@ -36,6 +36,9 @@ class ReactionWatch {
   /// Describes the reaction with the largest error next to a pole, caused by the estimated delay of the motion. Empty
   /// if no such error is above about a hundredth of the largest reaction.
   std::string misplaced() const;
+  void checkpoint(records::Archive& archive) {
+    archive(joints_, largest_, num_known_, num_due_, num_equal_, step_size_, drift_);
+  }
 
  private:
   struct Row {
@@ -53,6 +56,9 @@ class ReactionWatch {
     records::UnsureReaction found;
     double steepness = 0.0;                  ///< change per step next to a pole, else 0 [N]
     double shifted = 0.0, shifted_at = 0.0;  ///< largest error at a pole due to the delay [N]; its time
+    void checkpoint(records::Archive& archive) {
+      archive(rows, largest, bend, quiet, found, steepness, shifted, shifted_at);
+    }
   };
   /// If the last four values lie on a pole, the steeper of the slopes at the two inner ones [N per step]; else 0.
   static double steepness_at_pole(const Row& row, double now, double scale);

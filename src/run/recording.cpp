@@ -134,6 +134,15 @@ void Recording::draw(const step::State& state, bool is_last) {
   recorder_.motion(frame);
 }
 
+void Recording::checkpoint(records::Archive& archive) {
+  archive(account_, conservation_, gate_, pictures_, turns_, is_turn_told_, figures_, measures_, springs_, far_,
+          error_watch_, values_, row_, rows_);
+}
+
+void Recording::come_back() {
+  if (pictures_.is_wanted() && !pictures_.is_first()) recorder_.parts(results::make_parts(scene_, system_));
+}
+
 const std::vector<double>& Recording::eval_sensors(const step::State& state) {
   if (motion_sensors_) {
     motion_sensors_->see(system_.plan(), state);

@@ -42,6 +42,10 @@ class Recording {
   /// To be called at a breakpoint or the end of the run: figures are not interpolated across it.
   void end_stretch(const step::State& state) { figures_.end_stretch(system_, state, conservation_.energies()); }
 
+  void checkpoint(records::Archive& archive);
+  /// To be called once it was read, before further pictures are passed to the recorder.
+  void come_back();
+
   /// Values of all sensors in the order of the header.
   const std::vector<double>& eval_sensors(const step::State& state);
 

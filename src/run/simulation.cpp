@@ -56,6 +56,7 @@ struct Simulation::Impl {
         threads(threads_for(given, plan, asked.threads)),
         system(plan, given.solver, asked.wrap_walker ? asked.wrap_walker(threads.walker()) : threads.walker()),
         state(step::make_initial_state(plan)) {
+    if (recorder.keeps_checkpoints()) system.remember();
     recording.emplace(scene, asked, options, system, recorder);
     recording->summary().threads = threads.count();
     recording->summary().times.prepare =
@@ -65,6 +66,13 @@ struct Simulation::Impl {
 
   bool start() {
     if (stage != Stage::made) return stage == Stage::going;
+    if (const std::string kept = recorder.resume(recording->summary().header); !kept.empty()) {
+      records::Archive archive(kept);
+      checkpoint(archive);
+      archive.require_end();
+      stage = Stage::going;
+      return true;
+    }
     recorder.begin(recording->summary().header);
     if (const auto unknown = results::unknown_subdomain(system)) {
       (void)recording->account().fail(*unknown);
@@ -84,19 +92,46 @@ struct Simulation::Impl {
     if (analysis->is_done()) {
       stage = Stage::ended;
       recording->summary().status = RunStatus::ok;
+      return true;
     }
-    return true;
+    const std::string why = recording->account().why_to_stop();
+    if (recorder.is_checkpoint_due(state.time, !why.empty())) {
+      take_times();
+      records::Archive archive;
+      checkpoint(archive);
+      recorder.checkpoint(archive.bytes());
+    }
+    if (why.empty()) return true;
+    analysis->stop();
+    stage = Stage::ended;
+    return recording->account().interrupt(why);
+  }
+
+  /// All that steps change, but what was recorded. The analysis makes its integrator by the options.
+  void checkpoint(records::Archive& archive) {
+    archive(options, state, *recording, *analysis);
+    system.checkpoint(archive, [this](long matrices) { return analysis->write_matrices(matrices); });
+    if (!archive.is_reading()) return;
+    if (const auto trouble = system.set_time(state.time)) throw std::logic_error(trouble->text);
+    recording->come_back();
   }
 
   /// Calls `body` in the scope of the threads and measures its time.
   void together(const std::function<void()>& body) {
-    const auto begin = std::chrono::steady_clock::now();
+    timed_to = std::chrono::steady_clock::now();
     threads.keep_together([&] {
-      const double cpu = system.clock().now();
+      cpu_timed_to = system.clock().now();
       body();
-      recording->summary().times.cpu += system.clock().now() - cpu;
+      take_times();
     });
-    recording->summary().times.total += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+  void take_times() {
+    const auto now = std::chrono::steady_clock::now();
+    const double cpu = system.clock().now();
+    recording->summary().times.total += std::chrono::duration<double>(now - timed_to).count();
+    recording->summary().times.cpu += cpu - cpu_timed_to;
+    timed_to = now;
+    cpu_timed_to = cpu;
   }
 
   const std::chrono::steady_clock::time_point made_at = std::chrono::steady_clock::now();
@@ -113,6 +148,8 @@ struct Simulation::Impl {
   std::optional<Recording> recording;  ///< always has a value; optional so that restore can replace it
   Cloned<Analysis> analysis;
   Stage stage = Stage::made;
+  std::chrono::steady_clock::time_point timed_to = made_at;  ///< times of the summary are those up to here
+  double cpu_timed_to = 0.0;                                 ///< [s]
 };
 
 class Simulation::Moment {

@@ -183,7 +183,7 @@ decltype(records::Summary::solver) solver_figures(step::System& system, int depe
                                                 {"levels", static_cast<double>(levels)},
                                                 {"factor_bytes", static_cast<double>(counters.memory_bytes)},
                                                 {"flops_per_factorization", counters.factor_flops},
-                                                {"delayed_pivots", static_cast<double>(counters.delayed_pivots)},
+                                                {"delayed_pivots", static_cast<double>(system.linear().delayed_pivots())},
                                                 {"dependent_rows", static_cast<double>(dependent_rows)}};
   if (const solve::Dual* dual = system.linear().solver().dual();
       dual != nullptr && system.counts().factorizations > 0) {

@@ -29,6 +29,7 @@ class StabilityWatch {
   /// Result for the last equilibrium passed to look().
   step::StabilityLook last() const { return {seen_.is_known, seen_.unstable_directions}; }
   step::Stability& stability() { return stability_; }
+  void checkpoint(records::Archive& archive) { archive(stability_, seen_, last_factor_); }
   /// "'beam.8' moves most, along (0, 1, 0)"
   static std::string describe(const plan::Plan& plan, const step::UnstableMode& mode);
 

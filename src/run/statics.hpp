@@ -11,6 +11,10 @@ class Statics : public Analysis {
   void sum_up() override;
   void add_doubts() override;
   std::string not_judged() const override;
+  void checkpoint(records::Archive& archive) override {
+    Analysis::checkpoint(archive);
+    archive(stability_);
+  }
 
  protected:
   explicit Statics(const Parts& parts) : Analysis(parts), stability_(parts.scene, parts.system) {}

@@ -28,6 +28,7 @@ class StepWindow {
   void push(const step::System& system, const step::State& state, results::EnergyMeter& meter);
 
   int num_ends() const { return num_ends_; }
+  void checkpoint(records::Archive& archive) { archive(ends_, num_ends_); }
   double time(int end) const { return ends_[static_cast<std::size_t>(end)].time; }
   /// Values of the sensor `sensors()[k]` at an end.
   std::span<const double> values(int end, int k) const;
@@ -43,6 +44,7 @@ class StepWindow {
     std::vector<elements::NodeMotion> nodes;  ///< motions of nodes_
     std::vector<double> turns;                ///< angles of all joints
     std::vector<double> values;               ///< values of sensors_, one after the other
+    void checkpoint(records::Archive& archive) { archive(time, nodes, turns, values); }
   };
 
   const plan::Plan& plan_;

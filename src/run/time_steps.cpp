@@ -123,6 +123,18 @@ bool TimeSteps::take_step() {
   return goes_on;
 }
 
+void TimeSteps::stop() {
+  if (!is_stretch_done()) recording_.end_stretch(state_);
+}
+
+void TimeSteps::checkpoint(records::Archive& archive) {
+  Analysis::checkpoint(archive);
+  if (archive.is_reading()) integrator_ = step::make_integrator(system_, scene_.solver, options_);
+  archive(begin_, end_, local_error_, carried_, laws_, vibrations_, *integrator_, breaks_, hidden_looks_, hidden_known_,
+          hidden_unstable_, starts_unstable_, was_unstable_, ends_unstable_, hidden_mode_, is_begun_, is_followed_,
+          has_jump_, reactions_, values_before_, values_now_, values_displaced_, seen_);
+}
+
 bool TimeSteps::start_integrator(double step_size) {
   Conservation& conservation = recording_.conservation();
   if (reactions_) reactions_->restart();

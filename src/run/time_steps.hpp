@@ -25,6 +25,9 @@ class TimeSteps : public Analysis {
   bool begin() override;
   bool take_step() override;
   void jump() override { has_jump_ = is_begun_; }
+  void stop() override;
+  void checkpoint(records::Archive& archive) override;
+  bool write_matrices(long matrices) override { return integrator_->write_matrices(matrices); }
   void end_errors() override;
   double errors_grow_in() const override { return carried_ ? carried_->grows_in() : 0.0; }
   bool is_done() const override { return is_begun_ && is_stretch_done() && !(end_ < scene_.analysis.end_time); }
@@ -104,6 +107,10 @@ class EqualSteps final : public TimeSteps {
  public:
   explicit EqualSteps(const Parts& parts);
   std::unique_ptr<Analysis> clone() const override { return std::make_unique<EqualSteps>(*this); }
+  void checkpoint(records::Archive& archive) override {
+    TimeSteps::checkpoint(archive);
+    archive(size_, steps_, level_, done_, easy_, looks_every_, since_look_, looking_, looked_at_, unfiltered_looked_);
+  }
 
  private:
   bool begin_stretch() override;
@@ -134,6 +141,11 @@ class ControlledSteps final : public TimeSteps {
  public:
   explicit ControlledSteps(const Parts& parts);
   std::unique_ptr<Analysis> clone() const override { return std::make_unique<ControlledSteps>(*this); }
+  void checkpoint(records::Archive& archive) override {
+    TimeSteps::checkpoint(archive);
+    archive(controller_, limit_watch_, energy_error_, stops_, next_stop_, wanted_size_, from_, size_, steps_, done_,
+            rejections_, since_look_);
+  }
   void add_notes() override;
 
  private:

@@ -15,6 +15,7 @@ class TurnWatch {
   void look(const step::System& system, const step::State& state);
   double turn() const;  ///< [rad]
   bool has_begun() const { return has_begun_; }
+  void checkpoint(records::Archive& archive) { archive(has_begun_, from_, least_cosine_); }
 
  private:
   bool has_begun_ = false;

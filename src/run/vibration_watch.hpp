@@ -18,6 +18,7 @@ class VibrationWatch {
   /// accelerations.
   std::optional<std::string> look(const step::Integrator& integrator, double time);
   bool seen() const { return seen_; }
+  void checkpoint(records::Archive& archive) { archive(seen_, gaining_steps_); }
   /// To be called in every step once they were detected. Returns the cause to end the run if the energy stays above
   /// what the work of loads and drives explains, by more than `round_off` [J].
   std::optional<std::string> judge(const results::Balance& balance, double round_off, double time);

@@ -37,6 +37,10 @@ class Bdf final : public Integrator {
   StartReport change_step_size(State& state, const StepOptions& options, double step_size) override;
   StepReport advance(State& state, const StepOptions& options, double end_time) override;
 
+  void checkpoint(records::Archive& archive) override {
+    archive(h_, done_, begin_, alpha_, first_, second_, history_, signals_last_, signals_earlier_, steady_error_);
+  }
+
   /// A Newton correction of the step, as `iterate` asks for it.
   void apply_in_visit(int visit, State& state, const double* x) const;
   std::optional<Trouble> complete(State& state, const double* x) const;
@@ -51,6 +55,9 @@ class Bdf final : public Integrator {
     Vectors v_now, v_last, v_earlier;  ///< v_n, v_{n-1}, v_{n-2}
     Vectors y, rates;                  ///< c2 y_{n-1} + c3 y_{n-2}; c1 v_n + c2 v_{n-1} + c3 v_{n-2}
     void resize(std::size_t num_nodes);
+    void checkpoint(records::Archive& archive) {
+      archive(samples[0], samples[1], samples[2], last, earlier, v_now, v_last, v_earlier, y, rates);
+    }
   };
   template <class G>
   HistoryOn<G>& history() {

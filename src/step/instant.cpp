@@ -34,6 +34,7 @@ Instant::Instant(const plan::Plan& plan)
 
 std::optional<Trouble> Instant::set(double time, laws::Side side) {
   time_ = time;
+  side_ = side;
   for (std::size_t i = 0; i < plan_.laws.size(); ++i) {
     const laws::LawValue v = plan_.laws[i].law.at(plan_.laws[i].at_start ? 0.0 : time, side);
     if (const auto which = laws::non_finite(v))

@@ -111,6 +111,7 @@ std::optional<Trouble> LinearSolution::factor(bool rescale, const elements::Slop
   is_worn_ = false;
   ++counts_.factorizations;
   const solve::FactorStatus status = solver_->factor(walker_, before, rhs);
+  if (remembers_) note_scales(!is_like_the_last);
   if (status.ok()) {
     factored_ = slopes;
     is_factored_ = is_of_matrices_ = true;
@@ -149,6 +150,39 @@ std::string LinearSolution::explain_singular(const solve::FactorStatus& status) 
   return text + ", or it is held some 1e16 times more softly than its neighbours hold each other";
 }
 
+/// The solver takes new scales where it is told to, and where it has found that entries have drifted.
+void LinearSolution::note_scales(bool are_new) {
+  made_of_.factor = num_matrices_;
+  ++made_of_.factors;
+  if (const solve::Hierarchical* solver = solver_->hierarchical()) {
+    const std::span<const double> scales = solver->column_scale();
+    are_new = are_new || !std::equal(scales.begin(), scales.end(), scales_.begin(), scales_.end());
+    if (are_new) scales_.assign(scales.begin(), scales.end());
+  }
+  if (!are_new) return;
+  made_of_.scales = num_matrices_;
+  made_of_.measured = -1;
+  made_of_.next_measured = 0;
+}
+
+void LinearSolution::note_checked() {
+  if (made_of_.factors < made_of_.next_measured) return;
+  made_of_.measured = num_matrices_;
+  made_of_.next_measured = made_of_.factors + measurement_serves;
+}
+
+void LinearSolution::factor_again() {
+  static_cast<void>(solver_->factor(walker_));
+  if (const solve::Hierarchical* solver = solver_->hierarchical())
+    scales_.assign(solver->column_scale().begin(), solver->column_scale().end());
+}
+
+void LinearSolution::check_again() {
+  const std::vector<double> rhs(static_cast<std::size_t>(tree_->num_unknowns()), 1.0);
+  std::vector<double> x(rhs.size());
+  static_cast<void>(solver_->solve(walker_, rhs.data(), x.data()));
+}
+
 void LinearSolution::condense(solve::VisitWork before, const double* rhs) {
   PhaseTimer timer{clock_, counts_.assemble};
   solver_->condense(walker_, before, rhs);
@@ -163,6 +197,7 @@ std::optional<Trouble> LinearSolution::solve(const double* rhs, double* x, bool 
   ++counts_.solutions;
   if (!check) {  // of an observer: neither the schedule of checks nor the trust in the factor may change by it
     static_cast<void>(solver_->solve(walker_, rhs, x, false));
+    if (remembers_ && solver_->last_status().deficiency > 0) note_checked();  // checked all the same
     return std::nullopt;  // the caller notices a solution that is not finite
   }
   return find_trouble(solver_->solve(walker_, rhs, x));
@@ -179,6 +214,7 @@ std::optional<Trouble> LinearSolution::substitute(const double* rhs, double* x, 
 std::optional<Trouble> LinearSolution::find_trouble(const solve::SolveReport& solution) {
   unchecked_ = 0;
   ++counts_.checks;
+  if (remembers_) note_checked();
   last_solution_ = solution;
   is_trusted_ = last_solution_.backward_error <= good_ && last_solution_.refinement_steps == 0;
   if (!last_solution_.interface_converged)

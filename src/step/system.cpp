@@ -1,5 +1,7 @@
 #include "bough/step/system.hpp"
 
+#include <algorithm>
+#include <stdexcept>
 #include <string>
 
 #include "bough/step/step_cost.hpp"
@@ -42,10 +44,59 @@ std::optional<Trouble> System::set_time(double time, laws::Side side) {
   return std::nullopt;
 }
 
+void System::remember() {
+  constexpr std::size_t most_in_use = 4;
+  remembered_.resize(most_in_use + 1);
+  linear_.remember();
+}
+
+/// In a place that no matrices have which are still in use.
+void System::keep_tangents(const State& state, const elements::Slopes& slopes) {
+  const auto place = std::find_if(remembered_.begin(), remembered_.end(),
+                                  [this](const Tangents& t) { return t.matrices < 0 || !linear_.uses(t.matrices); });
+  place->matrices = linear_.num_matrices();
+  place->state.take_what_elements_read(state);
+  place->slopes = slopes;
+  place->time = instant_.time();
+  place->side = instant_.side();
+  place->take_symmetric_parts = linear_.takes_symmetric_parts();
+}
+
+bool System::evaluate_again(const std::vector<Tangents>& known, long matrices) {
+  for (const Tangents& t : known) {
+    if (t.matrices != matrices) continue;
+    if (set_time(t.time, t.side)) return false;
+    linear_.take_symmetric_parts(t.take_symmetric_parts);
+    begin(t.state, t.slopes, true);
+    linear_.visit_all(in_visits());
+    sums_.sum_held();
+    return true;
+  }
+  return false;
+}
+
+void System::checkpoint(records::Archive& archive, const std::function<bool(long)>& write_others) {
+  archive(linear_, round_off_.met());
+  std::vector<Tangents> in_use;
+  for (const Tangents& t : remembered_)
+    if (t.matrices >= 0 && linear_.uses(t.matrices)) in_use.push_back(t);
+  archive(in_use);
+  if (archive.is_reading()) {
+    const std::size_t room = remembered_.size();
+    remembered_.clear();  // what is evaluated again is not kept once more
+    const auto write = [&](long matrices) { return evaluate_again(in_use, matrices) || write_others(matrices); };
+    if (!linear_.make_again(write)) throw std::runtime_error("the matrices of its factorization are not known");
+    remembered_ = std::move(in_use);
+    remembered_.resize(room);
+  }
+  archive(counts_);
+}
+
 /// Equations of signals read the motion alone, so that they can be evaluated before the visits that need them.
 void System::begin(const State& state, const elements::Slopes& slopes, bool tangent) {
   ++counts_.evaluations;
   elements_.begin(state, slopes, tangent);
+  if (tangent && remembers()) keep_tangents(state, slopes);
   if (!signals_.are_none()) signals_.evaluate(state, slopes, tangent, sums_);
 }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "bough/elements/rows.hpp"
 #include "element_parts.hpp"
@@ -278,6 +279,7 @@ void VariationalOn<G>::evaluate_tangent(const elements::Slopes& slopes, double h
   const plan::Plan& plan = system_.plan();
   constexpr double no_multipliers[elements::max_rows] = {};
   system_.linear().begin_matrices();
+  if (system_.remembers()) keep_tangents(slopes, h);
   if (!system_.signals().are_none()) system_.signals().evaluate(mid_, slopes, true, *signal_sums_);
   auto by_element = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
@@ -335,6 +337,42 @@ void VariationalOn<G>::set_rows_of(int element, double* matrix) const {
       }
     }
   }
+}
+
+template <class G>
+void VariationalOn<G>::keep_tangents(const elements::Slopes& slopes, double h) {
+  std::erase_if(remembered_, [this](const Tangents& t) { return !system_.linear().uses(t.matrices); });
+  remembered_.push_back({system_.linear().num_matrices(), base_, mid_, D_, end_laws_, slopes, h, end_time_});
+}
+
+template <class G>
+bool VariationalOn<G>::write_matrices(long matrices) {
+  const auto t =
+      std::find_if(remembered_.begin(), remembered_.end(), [&](const Tangents& k) { return k.matrices == matrices; });
+  if (t == remembered_.end()) return false;
+  base_ = t->base;
+  mid_ = t->mid;
+  D_ = t->D;
+  end_laws_ = t->end_laws;
+  end_time_ = t->end_time;
+  if (system_.set_time(end_time_ - 0.5 * t->h, laws::Side::left)) return false;
+  before_.evaluate(system_, system_.instant().template field_on<G>(base_), base_.turns);
+  State next = base_;
+  if (place_nodes(next, t->h)) return false;
+  Field end = system_.instant().template field_on<G>(next);
+  end.around.laws = end_laws_.data();
+  after_.evaluate(system_, end, base_.turns);
+  evaluate_tangent(t->slopes, t->h);
+  return true;
+}
+
+template <class G>
+void VariationalOn<G>::checkpoint(records::Archive& archive) {
+  archive(remembered_, unresolved_, mass_step_, mass_state_);
+  const double h = mass_step_;
+  if (!archive.is_reading() || !(h > 0.0)) return;
+  if (factor_mass(mass_state_, h)) throw std::runtime_error("its mass matrix cannot be factored");
+  mass_.counts() = WorkCounts{};
 }
 
 /// Newton's iteration for D and the multipliers. The factorization is reused as long as the iteration contracts, as in

@@ -80,6 +80,8 @@ class VariationalOn final : public Integrator {
   StartReport change_step_size(State& state, const StepOptions& options, double step_size) override;
   StepReport advance(State& state, const StepOptions& options, double end_time) override;
   double unresolved() const override { return unresolved_; }
+  void checkpoint(records::Archive& archive) override;
+  bool write_matrices(long matrices) override;
 
  private:
   using On = motion::VectorsOn<G>;
@@ -100,6 +102,17 @@ class VariationalOn final : public Integrator {
   void observe_signals(State& next, double h);
   std::optional<Trouble> evaluate_step(State& next, const elements::Slopes& slopes, double h, ResidualSize& size);
   ResidualSize round_off_floor(double h) const;
+  /// What tangents were evaluated at.
+  struct Tangents {
+    long matrices = -1;  ///< LinearSolution::num_matrices
+    State base, mid;
+    Vectors D;
+    std::vector<double> end_laws;
+    elements::Slopes slopes;
+    double h = 0.0, end_time = 0.0;
+    void checkpoint(records::Archive& archive) { archive(matrices, base, mid, D, end_laws, slopes, h, end_time); }
+  };
+  void keep_tangents(const elements::Slopes& slopes, double h);
   void evaluate_tangent(const elements::Slopes& slopes, double h);
   template <class E>
   void add_elastic_tangent(const E& e, const Field& field, double h, double* matrix) const;
@@ -149,6 +162,8 @@ class VariationalOn final : public Integrator {
   double end_time_ = 0.0;  ///< of the step
   double unresolved_ = 0.0;
   double mass_step_ = 0.0;  ///< h of the factored mass matrix; 0: none
+  State mass_state_;        ///< of which it is, where the system remembers
+  std::vector<Tangents> remembered_;
 };
 
 }  // namespace bough::step

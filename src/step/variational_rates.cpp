@@ -55,6 +55,7 @@ std::optional<Trouble> VariationalOn<G>::factor_mass(const State& state, double 
                                 tree::make_chunk(by_element));
   if (const auto t = mass_.linear().factor(true, mass_slopes)) return t;
   mass_step_ = h;
+  if (system_.remembers()) mass_state_ = state;
   return std::nullopt;
 }
 

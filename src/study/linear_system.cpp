@@ -205,6 +205,10 @@ void fill(step::System& system, step::State state, const run::BeforeStep& attemp
   }
 }
 
+bool all_finite(const std::vector<double>& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
+
 }  // namespace
 
 std::optional<LinearSystem> make_linear_system(const scene::Scene& scene, const StepChoice& choice, int threads,
@@ -228,6 +232,10 @@ std::optional<LinearSystem> make_linear_system(const scene::Scene& scene, const 
                 : "there is no such step: the run ends with step " + std::to_string(summary.steps.accepted);
   if (out && !out->trouble.empty() && (out->matrix.size == 0 || (!interface.empty() && !out->interface))) {
     cause = out->trouble;
+    out.reset();
+  }
+  if (out && !(all_finite(out->matrix.value) && all_finite(out->rhs))) {
+    cause = "the linear system of step " + std::to_string(out->step) + " has entries that are not finite";
     out.reset();
   }
   return out;

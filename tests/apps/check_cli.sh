@@ -36,7 +36,7 @@ echo '{"schema_version": 1, "bodies": [{"name": "a", "mass": -1}, 7], "nonsense"
 # words
 expect 0 '^bough [0-9]' --version
 expect 0 'bough run' --help
-for verb in run view batch sweep check expand schema compare export-matrix kinematics study stress profile tune plan doctor; do expect 0 '  bough '$verb $verb --help; done
+for verb in run view batch sweep check expand schema compare export-matrix kinematics study stress profile tune plan doctor status; do expect 0 '  bough '$verb $verb --help; done
 expect 2 "did you mean 'run'" rnu good.json
 expect 2 "did you mean 'compare'" comapre a b
 expect 2 'Verbs:' xyzzy
@@ -443,7 +443,8 @@ process=$!
 until [ "$(cat .long.bough-new/history.csv.partial 2> /dev/null | wc -l)" -gt 2 ]; do kill -0 $process || break; sleep 0.1; done
 kill -INT $process
 wait $process
-holds test $? -eq 1
+holds test $? -eq 3
+holds grep -q -- '--resume goes on from time' printed
 holds grep -q '"status": "interrupted"' long/summary.json
 holds test "$(wc -l < long/history.csv)" -gt 2
 holds test "$(tail -1 long/history.csv | tr -cd , | wc -c)" -eq 5

@@ -219,6 +219,28 @@ TEST(SceneJson, faults_of_the_text_name_the_place_and_the_remedy) {
   }
 }
 
+TEST(SceneJson, texts_in_other_encodings_are_told_as_such) {
+  const struct {
+    std::string text, message;
+    int column;
+  } cases[] = {{"\xFF\xFE{\0}\0"s, "is UTF-16; save the file as UTF-8", 1},
+               {"{\0}\0"s, "is UTF-16", 1},
+               {"\0{\0}"s, "is UTF-16", 1},
+               {"\xFF\xFE\0\0{\0\0\0"s, "is UTF-32", 1},
+               {"{\0\0\0}\0\0\0"s, "is UTF-32", 1},
+               {"\0\0\0{\0\0\0}"s, "is UTF-32", 1},
+               {"{\0}"s, "holds a zero byte", 2},
+               {"{\"title\": \"Gr\xF6\xDF"
+                "e\"}",
+                "the byte \\xf6 is not UTF-8; save the file as UTF-8", 14}};
+  for (const auto& c : cases) {
+    const SceneFile file = read_scene_text(c.text, "text");
+    ASSERT_EQ(file.problems.size(), 1u);
+    EXPECT_NE(file.problems[0].text().find(c.message), std::string::npos) << file.problems[0].text();
+    EXPECT_EQ(file.problems[0].column, c.column) << file.problems[0].text();
+  }
+}
+
 TEST(SceneJson, nesting_is_limited_and_deep_texts_are_refused_at_once) {
   const auto nested = [](std::size_t n) { return std::string(n, '[') + std::string(n, ']'); };
   EXPECT_TRUE(accepted(nested(max_json_depth)));

@@ -54,6 +54,8 @@ TEST(SceneRead, what_is_left_out_takes_the_defaults_of_the_scene) {
   EXPECT_EQ(s.output.motion, d.output.motion);
   EXPECT_EQ(s.output.motion_stride, d.output.motion_stride);
   EXPECT_EQ(s.output.checks, d.output.checks);
+  EXPECT_EQ(s.output.checkpoint, d.output.checkpoint);
+  EXPECT_EQ(s.output.checkpoint_time, d.output.checkpoint_time);
 }
 
 TEST(SceneRead, the_former_name_of_the_form_of_the_solver_is_still_read) {

@@ -243,5 +243,31 @@ TEST(Summary, is_read_only_with_the_files_that_were_written_with_it) {
   EXPECT_FALSE(is_whole("none"));
 }
 
+/// A run ends between two files that a reader opens: what it read first does not belong to what it reads then.
+TEST(Summary, is_read_again_where_new_results_take_the_place_of_those_read) {
+  const ScratchDirectory scratch;
+  const auto write = [&](double value) {
+    RunDirectory run(scratch / "out", "1");
+    run.begin({{"a"}});
+    run.row({0.0, 0.0, 0, {value}});
+    run.end(sample_summary());
+  };
+  write(1.0);
+  int reads = 0;
+  const History history = read_unchanged(scratch / "out", [&] {
+    (void)read_whole_summary(scratch / "out", {"history.csv"});
+    if (++reads == 1) write(2.0);
+    if (reads == 1) throw std::runtime_error("what was read of both does not fit together");
+    if (reads == 2) write(3.0);
+    return read_history(scratch / "out/history.csv");
+  });
+  EXPECT_EQ(reads, 3);
+  EXPECT_EQ(history.rows.at(0).values.at(0), 3.0);
+  reads = 0;
+  EXPECT_THROW(read_unchanged(scratch / "out", [&]() -> int { throw std::runtime_error(std::to_string(++reads)); }),
+               std::runtime_error);
+  EXPECT_EQ(reads, 1) << "of a folder that stays as it is";
+}
+
 }  // namespace
 }  // namespace bough::io

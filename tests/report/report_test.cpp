@@ -329,6 +329,7 @@ TEST_F(Page, of_a_path_whose_load_factor_turns_back_counts_steps) {
   const std::string html = page_html(run, {});
   EXPECT_NE(html.find("\"timeLabel\":\"step\""), std::string::npos);
   EXPECT_NE(html.find("position at step"), std::string::npos);
+  EXPECT_NE(html.find("Permission is hereby granted, free of charge"), std::string::npos) << "the licence of three.js";
 }
 
 TEST_F(Page, lists_signals_with_units_and_their_values_at_the_end) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bough/records/no_recorder.hpp"
+#include "bough/run/estimate.hpp"
 #include "bough/run/simulate.hpp"
 #include "step/small_scenes.hpp"
 #include "trial_steps.hpp"
@@ -91,6 +92,19 @@ TEST(Outlook, has_usual_counts_where_the_run_fails) {
   EXPECT_EQ(outlook.effort.trial_steps, 0);
   EXPECT_GT(outlook.effort.step_seconds(), 0.0);
   EXPECT_EQ(outlook.effort.step_seconds(), outlook.effort.model_seconds);
+}
+
+/// A plan is made to learn how a scene moves only where that takes little itself.
+TEST(Refusal, of_large_scenes_makes_no_plan) {
+  scene::Scene s = test::make_chain(6);
+  const double small = estimate_run(s).memory_bytes;
+  EXPECT_EQ(refusal(s, 2.0 * small), "");
+  EXPECT_EQ(refusal(s, 0.9 * small), "") << "moves in a plane";
+  s.beams[0].elements = 1'000'000;
+  const double large = estimate_run(s).memory_bytes;
+  EXPECT_EQ(refusal(s, 2.0 * large), "");
+  const std::string why = refusal(s, 0.9 * large);
+  EXPECT_NE(why.find("taken, and"), std::string::npos) << why;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 /// A file that appears under its name only when it is complete and on disk.
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -28,6 +29,9 @@ class BeingWritten : public std::runtime_error {
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path final_path);
+  /// Opens what was written of a file before, under either of its names, to go on from a place in it: `checkpoint` has
+  /// to be read before anything is written.
+  static std::unique_ptr<AtomicFile> reopen(std::filesystem::path final_path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -46,6 +50,10 @@ class AtomicFile {
   /// waits for most of the work of all.
   void start_writing_out();
 
+  /// Writes what goes before to the disk, and its length and hash to the archive. Reading cuts the file back to that
+  /// length; throws std::runtime_error if it is shorter, or holds something else there.
+  void checkpoint(records::Archive& archive);
+
   /// Flush, fsync of the file, rename, fsync of the directory. On failure the final name keeps its former content.
   /// content: without the fsync of the directory; soon, later: without both. A caller with many files then calls
   /// `sync_file` on each and `sync_directory` once when all are written.
@@ -59,6 +67,8 @@ class AtomicFile {
   [[nodiscard]] const std::filesystem::path& path() const { return final_path_; }
 
  private:
+  enum class Content { replaced, kept };
+  AtomicFile(std::filesystem::path final_path, Content content);
   [[noreturn]] void fail(int error) const;
   void give_up();
 
@@ -68,6 +78,7 @@ class AtomicFile {
   Digest digest_;
   std::string digest_anew_;  ///< after the front was replaced
   int descriptor_ = -1;
+  bool keeps_ = false;  ///< reopened, and not yet known to be as it was: it is not removed
 };
 
 /// Writes a whole text in one go through an `AtomicFile`.

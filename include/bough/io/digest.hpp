@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "bough/records/archive.hpp"
+
 namespace bough::io {
 
 /// A 64-bit hash of all bytes added, in order, independent of their division into pieces. 32 bytes cost four
@@ -16,6 +18,7 @@ class Digest {
   /// Sixteen hexadecimal digits.
   std::string text() const;
   std::uint64_t num_bytes() const { return num_bytes_; }
+  void checkpoint(records::Archive& archive) { archive(hashes_, rest_, num_bytes_); }
 
  private:
   template <class T>

@@ -2,6 +2,7 @@
 /// `history.csv`: header `time,step_size,iterations,<column>...`, the initial state, then rows as they are recorded.
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,17 +21,20 @@ void append_history_row(std::string& text, const records::HistoryRow& row);
 class HistoryWriter {
  public:
   HistoryWriter(const std::filesystem::path& path, const records::HistoryHeader& header);
+  /// Goes on with a history, from the place that the archive holds.
+  HistoryWriter(const std::filesystem::path& path, const records::HistoryHeader& header, records::Archive& archive);
+  void checkpoint(records::Archive& archive) { archive(*file_, rows_); }
   void row(const records::HistoryRow& row);
-  void commit(Durability durability = Durability::now) { file_.commit(durability); }
+  void commit(Durability durability = Durability::now) { file_->commit(durability); }
   /// Record of the file's present content.
   [[nodiscard]] FileRecord record() const {
-    return {file_.path().filename().string(), file_.bytes_flushed(), file_.digest()};
+    return {file_->path().filename().string(), file_->bytes_flushed(), file_->digest()};
   }
-  [[nodiscard]] bool can_commit() const { return file_.is_open(); }
+  [[nodiscard]] bool can_commit() const { return file_->is_open(); }
   [[nodiscard]] long rows() const { return rows_; }
 
  private:
-  AtomicFile file_;
+  std::unique_ptr<AtomicFile> file_;
   std::size_t num_columns_;
   std::string line_;
   std::chrono::steady_clock::time_point flushed_at_;
@@ -43,7 +47,8 @@ struct History {
 };
 
 /// Reads a history back, bit for bit. Throws std::runtime_error naming file, line and what is wrong.
-History read_history(const std::filesystem::path& path);
+/// goes_on: it may end within a row, which is left out.
+History read_history(const std::filesystem::path& path, bool goes_on = false);
 
 /// One field of a CSV line, quoted where it must be. Text that a spreadsheet would take for a formula gets an apostrophe
 /// before it; numbers do not. csv_text: takes it away again.

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "bough/records/archive.hpp"
+
 namespace bough::io {
 
 inline constexpr const char* manifest_name = "manifest.json";
@@ -16,6 +18,7 @@ struct FileRecord {
   std::string name;         ///< relative, with slashes; a star at its end matches any text: "motion/frame_*"
   std::uint64_t bytes = 0;  ///< size, if `hash` is given
   std::string hash = {};    ///< Digest; empty: any content
+  void checkpoint(records::Archive& archive) { archive(name, bytes, hash); }
 };
 
 /// Outcome of the work whose results are in a folder.

@@ -21,6 +21,7 @@
 /// the axes of the start in space,  axes = exp(~r) axes_start.  Frames that are not whole (a crash) do not count.
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,27 +37,33 @@ class MotionBytes {
   explicit MotionBytes(records::MotionParts parts = {}) : parts_(std::move(parts)) {}
   /// All frames must have the parts of the first one. Header and start are written before the first frame.
   void append(std::string& bytes, const records::MotionFrame& frame);
+  void checkpoint(records::Archive& archive) { archive(start_); }
 
  private:
   records::MotionParts parts_;
-  std::unique_ptr<records::MotionFrame> start_;
+  std::optional<records::MotionFrame> start_;
 };
 
 class MotionWriter {
  public:
   explicit MotionWriter(const std::filesystem::path& path, records::MotionParts parts = {})
-      : file_(path), bytes_(std::move(parts)) {}
+      : file_(std::make_unique<AtomicFile>(path)), bytes_(std::move(parts)) {}
+  /// Goes on with a motion, from the place that the archive holds.
+  MotionWriter(const std::filesystem::path& path, records::Archive& archive) : file_(AtomicFile::reopen(path)) {
+    checkpoint(archive);
+  }
+  void checkpoint(records::Archive& archive) { archive(*file_, bytes_); }
   /// As MotionBytes::append. Throws std::runtime_error if the file cannot be written.
   void frame(const records::MotionFrame& frame);
-  void commit(Durability durability = Durability::now) { file_.commit(durability); }
+  void commit(Durability durability = Durability::now) { file_->commit(durability); }
   /// Record of the bytes in the file.
   [[nodiscard]] FileRecord record() const {
-    return {file_.path().filename().string(), file_.bytes_flushed(), file_.digest()};
+    return {file_->path().filename().string(), file_->bytes_flushed(), file_->digest()};
   }
-  [[nodiscard]] bool can_commit() const { return file_.is_open(); }
+  [[nodiscard]] bool can_commit() const { return file_->is_open(); }
 
  private:
-  AtomicFile file_;
+  std::unique_ptr<AtomicFile> file_;
   MotionBytes bytes_;
 };
 

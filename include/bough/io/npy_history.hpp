@@ -31,6 +31,8 @@ class NpyHistoryWriter {
   NpyHistoryWriter(std::filesystem::path path, const records::HistoryHeader& header)
       : path_(std::move(path)), num_columns_(3 + header.columns.size()) {}
   void row(const records::HistoryRow& row);
+  /// Reading goes on with the file from the place that the archive holds, if it had begun.
+  void checkpoint(records::Archive& archive);
   [[nodiscard]] bool has_begun() const { return file_ != nullptr; }
   /// Writes the number of rows into the head, and commits.
   void commit(Durability durability = Durability::now);

@@ -29,8 +29,9 @@ namespace bough::io {
 class OutputFolder {
  public:
   /// names: the files that may be written below `staging()`, as in a manifest.
+  /// resumed: a place of `unfinished_in`, whose files stay in `staging()` to be gone on with; empty: there is none.
   OutputFolder(std::filesystem::path folder, Owner owner, std::vector<std::string> names,
-               const std::vector<std::filesystem::path>& inputs = {});
+               const std::vector<std::filesystem::path>& inputs = {}, const std::filesystem::path& resumed = {});
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -38,6 +39,14 @@ class OutputFolder {
   [[nodiscard]] const std::filesystem::path& staging() const { return staging_; }
   /// Staging folder of the process that presently writes a folder, if there is one.
   static std::filesystem::path staging_of(const std::filesystem::path& folder);
+  /// Where results of this owner stand that did not come to their end: those of a writer that was killed, then those
+  /// that were published as failed, under the folder's name or beside it.
+  static std::vector<std::filesystem::path> unfinished_in(const std::filesystem::path& folder, const Owner& owner);
+  /// Gives the rows that a writer had recorded for a folder before it was killed the folder's name, as failed results.
+  /// Returns the folder; empty where there are no rows, or where the writer is still at work.
+  static std::filesystem::path keep_of_killed(const std::filesystem::path& folder, const Owner& owner);
+  /// Where a writer that was killed had left results, which stand beside the folder now; empty: nowhere.
+  [[nodiscard]] const std::filesystem::path& kept_of_killed() const { return kept_of_killed_; }
   /// Place of the results, as the user named it; after `publish` perhaps `<name>.failed`.
   [[nodiscard]] const std::filesystem::path& folder() const { return shown_; }
   /// Whether `publish` could not replace what exists under the folder's name and put these results beside it.
@@ -58,6 +67,9 @@ class OutputFolder {
 
  private:
   void claim_staging();
+  void take_over(const std::filesystem::path& resumed);
+  void remove_added();
+  void keep_of_killed();
   void lock_final();
   void make_durable();
   void prepare_staging();
@@ -69,7 +81,7 @@ class OutputFolder {
   std::string obstacle(FolderState state) const;
   Manifest manifest() const;
 
-  std::filesystem::path shown_, final_, staging_;
+  std::filesystem::path shown_, final_, staging_, kept_of_killed_;
   Owner owner_;
   std::vector<std::string> names_;
   std::vector<FileRecord> files_;

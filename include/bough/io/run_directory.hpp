@@ -8,6 +8,7 @@
 ///   summary.json   status, cost and checks of the run, its inputs, the hash of every file
 ///   manifest.json  the files in the directory that bough wrote (manifest.hpp)
 /// All of them appear under the directory's name together, at the end (output_folder.hpp).
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -24,11 +25,19 @@
 
 namespace bough::io {
 
+/// When a run keeps checkpoints, and whether it goes on from one.
+struct CheckpointRule {
+  double wall_clock = 0.0;  ///< between two of them [s]; 0: there are none
+  double time = 0.0;        ///< of the run [s], or load factor, between two of them; 0: not by that
+  bool resumes = false;     ///< from the last one that a run of the same scene by the same program has left
+};
+
 class RunDirectory final : public records::Recorder {
  public:
   /// Nothing is touched before `open` or `begin`: a run that does not start leaves no directory.
   /// replaces: whether results of another owner may be replaced (manifest.hpp).
-  RunDirectory(std::filesystem::path directory, std::string version, RunOrigin origin = {}, bool replaces = false);
+  RunDirectory(std::filesystem::path directory, std::string version, RunOrigin origin = {}, bool replaces = false,
+               CheckpointRule rule = {});
 
   /// Takes the directory for this run, or refuses it if it has foreign entries (OutputFolder). `begin` calls it if it
   /// was not called before.
@@ -38,6 +47,21 @@ class RunDirectory final : public records::Recorder {
   void row(const records::HistoryRow& row) override;
   void motion(const records::MotionFrame& frame) override;
   void parts(const records::MotionParts& parts) override { parts_ = parts; }
+
+  /// Tells readers how far the run has come (unfinished_run.hpp), every two seconds at most.
+  void note_progress(const records::Progress& progress);
+
+  /// checkpoint.1 and checkpoint.2, written in turn: a line of text, then the positions in all files and the state of
+  /// the run. The files are on the disk before a checkpoint is, and it gets its name when it is.
+  bool keeps_checkpoints() const override { return rule_.wall_clock > 0.0; }
+  bool is_checkpoint_due(double time, bool is_last) override;
+  void checkpoint(std::string_view state) override;
+  std::string resume(const records::HistoryHeader& header) override;
+  /// What is to be told about checkpoints: which one the run goes on from, and why others cannot be used.
+  [[nodiscard]] const std::vector<std::string>& told() const { return told_; }
+  /// Whether the results that `end` has published can be gone on with.
+  [[nodiscard]] bool can_go_on() const { return can_go_on_; }
+  [[nodiscard]] double time() const { return time_; }  ///< of the last step
 
   /// Commits history, motion and summary. After a failed write, everything written safely before is kept, without a
   /// summary. Throws the first failure.
@@ -68,6 +92,18 @@ class RunDirectory final : public records::Recorder {
                                          std::string_view rows);
 
  private:
+  /// A checkpoint as it was read, its head taken off.
+  struct Checkpoint {
+    std::filesystem::path place;  ///< folder
+    long number = 0;
+    double time = 0.0;
+    std::string bytes;
+  };
+  std::optional<Checkpoint> last_checkpoint_in(const std::filesystem::path& place);
+  std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file);
+  void take_files(records::Archive& archive, const records::HistoryHeader& header);
+  std::string identity() const;
+  void settle_checkpoints(records::RunStatus status);
   /// Gives the files their names; returns the first failure.
   std::exception_ptr commit_files();
   void list(FileRecord record);
@@ -82,7 +118,16 @@ class RunDirectory final : public records::Recorder {
   std::unique_ptr<MotionWriter> motion_;
   records::MotionParts parts_;
   std::string columns_;  ///< of columns.json
-  bool has_ended_ = false;
+  bool has_ended_ = false, was_cut_off_ = false, can_go_on_ = false;
+  CheckpointRule rule_;
+  std::optional<Checkpoint> from_;
+  std::chrono::steady_clock::time_point kept_at_ = std::chrono::steady_clock::now();
+  double kept_time_ = 0.0, time_ = 0.0;  ///< times of the last checkpoint and of the last step
+  long num_checkpoints_ = 0;
+  const std::chrono::steady_clock::time_point begun_at_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point told_at_ = begun_at_;
+  std::size_t synced_frames_ = 0;
+  std::vector<std::string> told_;
   std::vector<PvdEntry> frames_;
   std::vector<FileRecord> frame_records_, records_;
   std::vector<std::string> files_;

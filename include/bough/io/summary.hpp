@@ -48,9 +48,30 @@ struct SummaryFile {
 /// Throws std::runtime_error naming the file and what is wrong.
 SummaryFile read_summary(const std::filesystem::path& path);
 
+/// Changes whenever new results take the place of those in a directory.
+std::string state_of_folder(const std::filesystem::path& directory);
+/// Whether a directory still has this state, and nobody moves new results into it; waits a moment where somebody does.
+bool is_settled(const std::filesystem::path& directory, const std::string& state);
+
 /// The summary of a directory, after checking that the files `names` were written together with it. Throws
 /// std::runtime_error if the directory is incomplete, or if one of them is listed but missing, exists but is not
 /// listed, or has changed.
 SummaryFile read_whole_summary(const std::filesystem::path& directory, const std::vector<std::string>& names);
+
+/// What read() makes of the files of a directory, all of one run: where the directory was replaced by new results in the
+/// meantime, they are read once more. Throws what read() throws of a directory that stays.
+template <class Read>
+auto read_unchanged(const std::filesystem::path& directory, const Read& read) {
+  constexpr int most_tries = 20;
+  for (int k = 1;; ++k) {
+    const std::string before = state_of_folder(directory);
+    try {
+      auto result = read();
+      if (k == most_tries || state_of_folder(directory) == before) return result;
+    } catch (const std::runtime_error&) {
+      if (k == most_tries || is_settled(directory, before)) throw;
+    }
+  }
+}
 
 }  // namespace bough::io

@@ -22,6 +22,7 @@ std::string vtu_text(const records::MotionFrame& frame, const records::MotionPar
 struct PvdEntry {
   double time = 0.0;
   std::string file;  ///< relative to the PVD file
+  void checkpoint(records::Archive& archive) { archive(time, file); }
 };
 /// Readers sort pictures by their time steps. Where times do not grow, as load factors along a path do not, the time
 /// steps are therefore the numbers of the pictures; the files keep their times as `TimeValue`.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bough/records/archive.hpp"
 #include "bough/scene/outlines.hpp"
 
 namespace bough::records {
@@ -28,6 +29,7 @@ struct HistoryRow {
   double step_size = 0.0;
   int iterations = 0;
   std::vector<double> values;
+  void checkpoint(Archive& archive) { archive(time, step_size, iterations, values); }
 };
 
 /// The moving structure at one time, for pictures and VTU.
@@ -41,6 +43,7 @@ struct CurvePoint {
 struct Curve {
   std::string name;
   std::vector<CurvePoint> points;
+  void checkpoint(Archive& archive) { archive(name, points); }
 };
 struct BodyPose {
   std::string name;
@@ -50,6 +53,7 @@ struct BodyPose {
   std::vector<std::array<double, 3>> attachments =
       {};                   ///< attachment points of joints, springs and beams, drawn as spokes from the centre
   double velocity[3] = {};  ///< of the centre of mass [m/s]
+  void checkpoint(Archive& archive) { archive(name, position, axes, center, attachments, velocity); }
 };
 struct Link {
   std::string name;  ///< joint or spring, drawn as a segment (a joint may have length 0)
@@ -58,12 +62,14 @@ struct Link {
   double axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< joint frame on the first side; unused for springs
   double first_velocity[3] = {};                 ///< of both sides [m/s]
   double second_velocity[3] = {};
+  void checkpoint(Archive& archive) { archive(name, first, second, axes, first_velocity, second_velocity); }
 };
 struct FramePose {
   std::string name;
   double position[3];
   double axes[9];
   double velocity[3] = {};  ///< of the origin [m/s]
+  void checkpoint(Archive& archive) { archive(name, position, axes, velocity); }
 };
 /// A point load, or one point of a line load: its present value in the axes of the ground.
 struct Arrow {
@@ -73,11 +79,13 @@ struct Arrow {
   double moment[3];            ///< [N m], of a line load [N]
   bool is_per_length = false;  ///< of a line load, per reference length
   double velocity[3] = {};     ///< of the point on which it acts [m/s]
+  void checkpoint(Archive& archive) { archive(name, position, force, moment, is_per_length, velocity); }
 };
 /// Value of a signal that changes with the motion, in its own unit.
 struct SignalValue {
   std::string name;
   double value = 0.0;
+  void checkpoint(Archive& archive) { archive(name, value); }
 };
 /// The motion between two frames follows from places and velocities, as cubics. After a turn by phi these are off by
 /// phi^4/384 of the radius, here 1e-3 [rad].
@@ -93,6 +101,7 @@ struct MotionFrame {
   std::vector<Arrow> arrows = {};
   std::vector<SignalValue> signals = {};
   bool for_others = true;  ///< frame is also written to files for other programs, which are larger
+  void checkpoint(Archive& archive) { archive(time, turn, curves, bodies, links, frames, arrows, signals, for_others); }
 };
 /// Properties of the parts in all frames of a motion, in the order of the frames' lists; given once.
 struct MotionParts {
@@ -161,6 +170,14 @@ struct Checks {
   /// length of the connected parts [-], and its joint.
   double relative_violation_step = 0.0;
   std::string fast_joint;
+  void checkpoint(Archive& archive) {
+    archive(evaluated, energy_balance, energy_scale, energy_round_off, numerical_dissipation, momentum_balance,
+            momentum_scale, angular_momentum_balance, angular_momentum_scale, constraint_violation_position,
+            constraint_violation_velocity, linear_backward_error_max, linear_rank_error_max, local_error_known,
+            local_error_max, local_error_sum, local_error_max_velocity, round_off_floor_reached, steps_at_floor,
+            unbalanced_at_floor, energy_gained, relative_violation_position, open_joint, relative_violation_step,
+            fast_joint);
+  }
 };
 /// Figures of one level of the tree of sub-domains, evaluated with the last factorization of a run.
 struct LevelFigures {
@@ -185,6 +202,7 @@ struct ChangedVelocity {
   std::array<double, 3> asked, got;  ///< given in the scene, and consistent one at the start; axes of the ground [m/s]
                                      ///< or [rad/s]
   double change = 0.0;               ///< magnitude of the change, over the largest speed of the structure [-]
+  void checkpoint(Archive& archive) { archive(of, is_angular, asked, got, change); }
 };
 /// The change of a joint's reaction that one more Newton correction would cause, at the time when this change is
 /// largest.
@@ -194,6 +212,7 @@ struct UnsureReaction {
   double size = 0.0, error = 0.0;  ///< the reaction at that time, and the change [N]; moments are divided by the size
                                    ///< of an element
   double largest = 0.0;            ///< largest reaction of the run [N]
+  void checkpoint(Archive& archive) { archive(joint, time, size, error, largest); }
 };
 /// A reason to examine a run before its results are used.
 struct Doubt {
@@ -212,6 +231,7 @@ struct Bifurcation {
   double load_factor = 0.0;
   std::string mode;     ///< the part that moves most in the direction of the other branch, in words
   bool is_lost = true;  ///< stability is lost along the path; otherwise it is regained
+  void checkpoint(Archive& archive) { archive(load_factor, mode, is_lost); }
 };
 /// Stability of static equilibria under loads that are held constant. Under loads without a potential, an even number
 /// of unstable directions and flutter are not detected.
@@ -229,6 +249,10 @@ struct Stability {
   std::string hidden;        ///< which motions the plan excluded, if the last equilibrium is unstable in one of them
   std::string hidden_mode;   ///< the part that moves most in that motion
   std::string largest_load;  ///< at the end, in words; empty: there is none
+  void checkpoint(Archive& archive) {
+    archive(is_known, is_declared, not_conservative, unstable_directions, first_lost, mode, hidden, hidden_mode,
+            largest_load);
+  }
 };
 struct ExpectedResult {
   std::string name;
@@ -283,6 +307,11 @@ struct Summary {
   std::vector<LevelFigures> levels;  ///< of the hierarchical solver
   std::vector<std::pair<std::string, double>>
       solver;  ///< figures of the tree: sub-domains, levels, interface unknowns, condition, ...
+  /// What changes while the run goes on; the rest follows from the scene, or is completed at the end.
+  void checkpoint(Archive& archive) {
+    archive(status, cause, options, steps, times, checks, changed_velocities, limit_points, bifurcations, notes,
+            step_size, instability);
+  }
 };
 
 /// Receives a run as it goes. A writer throws std::runtime_error where it cannot write; the run then fails with that
@@ -296,6 +325,16 @@ class Recorder {
   /// Before the first frame of a motion.
   virtual void parts(const MotionParts& /*parts*/) {}
   virtual void end(const Summary& summary) = 0;
+
+  /// Whether checkpoints may be asked for: a run then keeps what it needs to make its factorization again.
+  virtual bool keeps_checkpoints() const { return false; }
+  /// Whether one is due after a step that was accepted at this time [s], or load factor; is_last: the run is to stop.
+  virtual bool is_checkpoint_due(double /*time*/, bool /*is_last*/) { return false; }
+  /// Keeps the state of the run (an Archive), which belongs to all that was recorded so far.
+  virtual void checkpoint(std::string_view /*state*/) {}
+  /// The state that the run is to go on from, as if it had not been interrupted; what was recorded since is taken back.
+  /// Empty: the run begins. Asked for instead of `begin`.
+  virtual std::string resume(const HistoryHeader& /*header*/) { return {}; }
 };
 
 /// Told of progress; returns false to ask the run to stop (interrupted).

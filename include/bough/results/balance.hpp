@@ -35,6 +35,7 @@ class WorkMeter {
   void begin(const step::System& system, const step::State& state);
   /// Adds the contribution of a step; call it after every accepted step.
   void add(const step::System& system, const step::State& state, double step_size);
+  void checkpoint(records::Archive& archive) { archive(ports_, drives_, dissipation_rate_, force_, moment_, supply_); }
   const Supply& supply() const { return supply_; }
   double mass() const { return mass_; }  ///< total mass [kg]
   /// Whether something ties the structure to the ground. The impulse of its reactions, which are known at the ends of
@@ -82,6 +83,10 @@ class Balance {
   void jump(const Energies& before, const Energies& after);
   /// Evaluates the defects at a time where results are wanted, of a structure of this mass [kg] and size [m].
   void compare(const Energies& now, const Supply& supply, double mass, double size);
+  void checkpoint(records::Archive& archive) {
+    archive(start_energy_, start_momentum_, momentum_scale_, angular_error_, angular_scale_, energy_error_,
+            energy_scale_, last_error_, momentum_error_, largest_energies_);
+  }
 
   double energy_error() const { return energy_error_; }  ///< largest |energy - work + dissipation - start| seen [J]
   double energy_scale() const { return energy_scale_; }  ///< largest sum of magnitudes of the terms so far [J]

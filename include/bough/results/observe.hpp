@@ -42,6 +42,7 @@ class MotionSensors {
   std::span<const int> nodes() const { return nodes_; }
   /// Motion of one of these, which may be changed before values are asked for.
   elements::NodeMotion& motion(int node);
+  void checkpoint(records::Archive& archive) { archive(seen_); }
 
  private:
   std::vector<int> nodes_;

@@ -18,6 +18,8 @@ class SpringWatch {
   /// Call it at the rows of a history. Does not allocate.
   void look(const step::System& system, const step::State& state);
 
+  void checkpoint(records::Archive& archive) { archive(seen_, is_first_, passed_, time_); }
+
   /// Describes the first spring that passed through length 0, with the time; empty if none did.
   std::string text() const;
 
@@ -29,6 +31,7 @@ class SpringWatch {
     motion::Vec3<double> approach =
         motion::Vec3<double>::zero();  ///< change of the vector between its ends since the previous call; at first its
                                        ///< rate
+    void checkpoint(records::Archive& archive) { archive(span, approach); }
   };
   static motion::Vec3<double> rate_of(const elements::Spring& spring, const elements::Field& field);
 

@@ -66,12 +66,14 @@ class Measures {
   void add(double time, std::span<const double> values);
   /// Results in the order of the scene, without the measures for which `is_figure` is true.
   std::vector<records::MeasureResult> results() const;
+  void checkpoint(records::Archive& archive) { archive(quantities_, times_); }
 
  private:
   struct Quantity {
     std::vector<std::size_t> columns;      ///< of the header
     std::optional<laws::Formula> formula;  ///< of these columns; empty: the value of the only one
     std::vector<double> values;
+    void checkpoint(records::Archive& archive) { archive(values); }
   };
   struct Measure {
     const scene::Measure* given;

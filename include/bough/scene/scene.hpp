@@ -387,6 +387,9 @@ struct Output {
   bool motion = false;    ///< write motion.pvd and VTU
   int motion_stride = 0;  ///< pictures: every n-th step; 0: at most 101, evenly over the run
   bool checks = true;     ///< balances and constraint violations, at the times of history rows
+  /// Between two checkpoints of a run: wall clock [s], 0: none at all; and time of the run [s], or load factor, 0: not
+  /// by that.
+  double checkpoint = 300.0, checkpoint_time = 0.0;
 };
 
 /// How a figure is derived from a quantity: its value at the end or at a given time, the extremes over the run and the

@@ -43,6 +43,10 @@ class ArcLengthPath {
   const Vectors& direction() const { return direction_; }
   void set_direction(const Vectors& direction) { direction_ = direction; }
 
+  void checkpoint(records::Archive& archive) {
+    archive(start_, load_, tangent_, correction_, x_, spring_, by_spring_, moved_, direction_, slope_, has_direction_);
+  }
+
  private:
   /// Added to one unknown where K is singular.
   struct Spring {

@@ -40,6 +40,10 @@ class ErrorTransport {
   /// rotation need as well as of the speed, and round-off, in directions that look random.
   void disturb(const State& state, double duration);
 
+  void checkpoint(records::Archive& archive) {
+    archive(time_, z_, rate_, second_, algorithmic_, signals_, step_, random_, is_solved_, num_solutions_);
+  }
+
   /// Whether the last step was solved, and how many solutions it took.
   bool is_solved() const { return is_solved_; }
   int num_solutions() const { return num_solutions_; }

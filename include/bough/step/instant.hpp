@@ -21,6 +21,8 @@ class Instant {
 
   /// Left or right limit at t. A value that is not finite is told with its owner and the time.
   [[nodiscard]] std::optional<Trouble> set(double time, laws::Side side);
+  double time() const { return time_; }
+  laws::Side side() const { return side_; }
 
   /// Values of laws, and of signals as they were in the state of the last field made here.
   const std::vector<double>& law_values() const { return values_; }
@@ -58,6 +60,7 @@ class Instant {
 
   const plan::Plan& plan_;
   double time_ = 0.0;
+  laws::Side side_ = laws::Side::left;
   mutable std::vector<double> values_;         ///< of laws; those of signals are taken from states
   std::vector<double> rates_, accelerations_;  ///< of laws
   plan::FrameMotions frames_;

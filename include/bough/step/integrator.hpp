@@ -27,6 +27,12 @@ class Integrator {
   /// How much of the last step's motion vibrates faster than the step, from 0 to 1: of rules that do not damp such
   /// vibrations, else 0.
   virtual double unresolved() const { return 0.0; }
+
+  /// Writes or reads what it keeps beside the state.
+  virtual void checkpoint(records::Archive& /*archive*/) {}
+  /// Writes element matrices that it has made itself to the solver, by LinearSolution::num_matrices, where it was read
+  /// from an archive that has them; false: it has not made them. See System::checkpoint.
+  virtual bool write_matrices(long /*matrices*/) { return false; }
 };
 
 /// The rule that the options name, for a system, which outlives it.

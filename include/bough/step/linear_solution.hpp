@@ -1,14 +1,17 @@
 #pragma once
 /// The linear solution of a step: tree, solver, and the policy by which a factor serves again. Newton's iterations
 /// ask it whether the factor at hand will do; how much of a solution is checked is its own affair.
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "bough/elements/evaluate.hpp"
 #include "bough/plan/plan.hpp"
+#include "bough/records/archive.hpp"
 #include "bough/solve/any_solver.hpp"
 #include "bough/step/cpu_clock.hpp"
 #include "bough/step/trouble.hpp"
@@ -102,7 +105,44 @@ class LinearSolution {
   void note_service(int solutions);
   bool is_factor_worn() const { return is_worn_; }
 
+  /// From now on it is known of which matrices the solver holds something, so that all of it can be made again.
+  void remember() { remembers_ = true; }
+  /// Whether the solver holds something of these matrices, by num_matrices.
+  bool uses(long matrices) const {
+    return matrices == num_matrices_ || matrices == made_of_.factor || matrices == made_of_.scales ||
+           matrices == made_of_.measured;
+  }
+  /// Of a solver that was told to remember. What the solver itself holds is not among it, but made again after reading
+  /// by make_again.
+  void checkpoint(records::Archive& archive) {
+    std::int64_t delayed = delayed_pivots();
+    archive(delayed);
+    if (archive.is_reading()) delayed_before_ = delayed;
+    archive(made_of_, num_matrices_, is_factored_, factored_, is_of_matrices_, is_trusted_, unchecked_, last_solution_,
+            takes_symmetric_parts_, contraction_, service_cost_, iterations_served_, is_worn_);
+  }
+  /// Over all factorizations of the run.
+  std::int64_t delayed_pivots() const { return delayed_before_ + solver_->counters().delayed_pivots; }
+  /// Makes the factor that was there when the archive was written, to the last bit: write(matrices) writes the element
+  /// matrices of this number. False: it cannot.
+  template <class Write>
+  [[nodiscard]] bool make_again(Write&& write);
+  /// For tangents that were made before drop_symmetry was called.
+  void take_symmetric_parts(bool takes) { takes_symmetric_parts_ = takes; }
+
  private:
+  /// Numbers of the matrices of which the solver holds the factor, the scales, and the sizes; -1: of none.
+  struct MadeOf {
+    long factor = -1, scales = -1, measured = -1;
+    long factors = 0;        ///< made so far
+    long next_measured = 0;  ///< number of factors after which sizes are measured again
+  };
+  /// Factors for which the sizes serve that Hierarchical measures where it checks a solution.
+  static constexpr long measurement_serves = 8;
+  void note_scales(bool are_new);
+  void note_checked();
+  void factor_again();
+  void check_again();
   std::string explain_singular(const solve::FactorStatus& status) const;
   bool may_skip_check();
   std::optional<Trouble> find_trouble(const solve::SolveReport& solution);
@@ -137,6 +177,49 @@ class LinearSolution {
   double service_cost_ = 0.0;  ///< of the present factor: renewal_cost and the solutions of all iterations since
   int iterations_served_ = 0;
   bool is_worn_ = false;
+  bool remembers_ = false;
+  std::int64_t delayed_before_ = 0;  ///< pivots that were delayed before the archive was written that was read
+  MadeOf made_of_;
+  std::vector<double> scales_;  ///< of columns, where it remembers: the solver may choose new ones by itself
 };
+
+template <class Write>
+bool LinearSolution::make_again(Write&& write) {
+  const MadeOf made_of = made_of_;
+  const auto present = num_matrices_;
+  const auto state = std::tuple(is_factored_, is_of_matrices_, is_trusted_, takes_symmetric_parts_);
+  long written = -1;
+  const auto make = [&](long matrices) {
+    if (matrices == written) return true;
+    written = matrices;
+    return write(matrices);
+  };
+  bool is_made = true;
+  if (is_factored_) {
+    const bool is_measured = made_of.measured >= 0;
+    const long since = is_measured ? measurement_serves - (made_of.next_measured - made_of.factors) : 0;
+    solver_->rescale();
+    is_made = make(made_of.scales);
+    factor_again();
+    if (is_measured && since > 0) {
+      is_made = is_made && make(made_of.measured);
+      check_again();
+    }
+    const long times = std::max(std::min(since, measurement_serves), made_of.factor != made_of.scales ? 1L : 0L);
+    for (long k = 0; k < times; ++k) {
+      is_made = is_made && make(made_of.factor);
+      factor_again();
+    }
+    if (is_measured && since == 0) {
+      is_made = is_made && make(made_of.measured);
+      check_again();
+    }
+  }
+  if (present > 0) is_made = make(present) && is_made;
+  std::tie(is_factored_, is_of_matrices_, is_trusted_, takes_symmetric_parts_) = state;
+  delayed_before_ -= solver_->counters().delayed_pivots;
+  num_matrices_ = present;
+  return is_made;
+}
 
 }  // namespace bough::step

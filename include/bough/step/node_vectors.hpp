@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bough/elements/evaluate_lanes.hpp"
+#include "bough/records/archive.hpp"
 #include "bough/step/node_order.hpp"
 
 namespace bough::step {
@@ -25,16 +26,28 @@ class NodeVectors {
     if (order_ == order) return;
     const NodeVectors before = *this;
     assign_zero(order);
-    if (before.order_ == nullptr) return;
+    read_.clear();
+    if (before.order_ == nullptr && before.read_.empty()) return;
     for (std::size_t n = 0; n < order->num_nodes(); ++n) set(n, before[n]);
   }
   void resize_as(const NodeVectors& like) {
     order_ = like.order_;
     lanes_.resize(like.lanes_.size());
+    read_ = like.read_;
+  }
+  /// The vectors by node, which have no order once they are read.
+  void checkpoint(records::Archive& archive) {
+    std::vector<Vector> by_node = read_;
+    for (std::size_t n = 0; order_ != nullptr && n < order_->num_nodes(); ++n) by_node.push_back((*this)[n]);
+    archive(by_node);
+    if (!archive.is_reading()) return;
+    order_ = nullptr;
+    lanes_.clear();
+    read_ = std::move(by_node);
   }
 
   Vector operator[](std::size_t node) const {
-    if (order_ == nullptr) return Vector::zero();
+    if (order_ == nullptr) return read_.empty() ? Vector::zero() : read_[node];
     const NodeOrder::Place at = order_->place(node);
     return lanes::get_lane(lanes_[at.eight], at.lane);
   }
@@ -50,6 +63,7 @@ class NodeVectors {
  private:
   std::shared_ptr<const NodeOrder> order_;
   std::vector<Lanes> lanes_;
+  std::vector<Vector> read_;  ///< by node, of vectors that were read from an archive and have no order yet
 };
 
 }  // namespace bough::step

@@ -21,6 +21,7 @@ class RoundOffMemory {
     size_ = {};
     age_ = 0;
   }
+  void checkpoint(records::Archive& archive) { archive(size_, age_); }
 
  private:
   static constexpr int lasts = 64;

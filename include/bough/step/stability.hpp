@@ -36,6 +36,8 @@ class Stability {
   Stability(const Stability& other)
       : system_(other.system_), diagonal_(other.diagonal_), num_rows_(other.num_rows_), last_(other.last_) {}
 
+  void checkpoint(records::Archive& archive) { archive(last_); }
+
   bool is_conservative() const { return system_.plan().not_conservative.empty(); }
 
   /// Reads the pivots of the present factor, which is to be that of an equilibrium or nearly so. Where rows were

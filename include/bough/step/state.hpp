@@ -25,6 +25,9 @@ struct NodesOn {
   NodeVectors<G> trend_change;        ///< change of that from the step before; zero after a start
   std::vector<Vector> momentum;       ///< p_n of the variational integrator; else empty
 
+  void checkpoint(records::Archive& archive) {
+    archive(motion, rotation, algorithmic, acceleration_trend, trend_change, momentum);
+  }
   /// As many nodes as there are in `like`.
   void resize_as(const NodesOn& like) {
     motion.resize(like.motion.size());
@@ -42,6 +45,7 @@ struct SignalValues {
   std::vector<double> given;        ///< of inputs, as they were set last; zero for other signals
   std::vector<double> algorithmic;  ///< a_n of generalized-alpha for states
   std::vector<double> trend;        ///< change over the last step: of a state's rate, of another signal's value
+  void checkpoint(records::Archive& archive) { archive(value, rate, given, algorithmic, trend); }
 };
 
 struct State {
@@ -68,6 +72,12 @@ struct State {
   /// By at least this angle relative rotations may still change before an element can be past a limit of its shape
   /// (check_shape) [rad]; 0: not known. A change of nodes by anything but a step of generalized-alpha resets it.
   double shape_margin = 0.0;
+
+  void checkpoint(records::Archive& archive) {
+    if (archive.is_reading()) begin_change();
+    archive(nodes_, time, step_size, predictor_order, local_error, increment, velocity_error, last_step, unsettled,
+            multipliers, multiplier_trend, multiplier_trend_change, multiplier_order, signals, turns, shape_margin);
+  }
 
   std::size_t num_nodes() const {
     return std::visit([](const auto& nodes) { return nodes.motion.size(); }, nodes_);
@@ -103,6 +113,15 @@ struct State {
   decltype(auto) change_all(F&& f) {
     begin_change();
     return std::visit(std::forward<F>(f), nodes_);
+  }
+  /// Takes what elements read of a state, and leaves the rest.
+  void take_what_elements_read(const State& from) {
+    from.visit([this]<class G>(const NodesOn<G>& nodes) { emplace<G>().motion = nodes.motion; });
+    time = from.time;
+    unsettled = from.unsettled;
+    multipliers = from.multipliers;
+    signals = from.signals;
+    turns = from.turns;
   }
   /// As many nodes as there are in `like`, on its group, whatever they were.
   template <class G>

@@ -53,6 +53,9 @@ class LocalError {
 
   /// A start, or the far side of a jump: v''' is not known in the first step.
   void restart() { has_previous_ = false; }
+  void checkpoint(records::Archive& archive) {
+    archive(speed_, spin_, parts_, energy_, now_, previous_, step_, previous_step_, has_previous_, states_);
+  }
 
   /// Of the step that `advance` just took to `after` (its factor is still there), which must be whole.
   /// Overwrites the residual and the right-hand side of `system`. Fails where the solution does.
@@ -166,6 +169,7 @@ class StepController {
     previous_ = most_ = 0.0;
     since_change_ = 0;
   }
+  void checkpoint(records::Archive& archive) { archive(previous_, most_, since_change_); }
 
  private:
   double tolerance_;

@@ -1,5 +1,6 @@
 #pragma once
 /// A plan with what is needed to evaluate and solve it, put together once for a run.
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -89,6 +90,14 @@ class System {
   const std::vector<double>& right_hand_side() const { return sums_.right_hand_side(); }
   ResidualSize residual_size() const { return sums_.size(); }
 
+  /// From now on the tangents of which the solver holds something are kept, so that `checkpoint` may be called.
+  void remember();
+  bool remembers() const { return !remembered_.empty(); }
+  /// Writes what evaluations and solutions to come depend on, or reads it and makes the factor again. write_others:
+  /// writes element matrices that were not evaluated here, by LinearSolution::num_matrices; false: they are not its own.
+  /// Throws std::runtime_error where the factor cannot be made. The time has to be set anew after reading.
+  void checkpoint(records::Archive& archive, const std::function<bool(long)>& write_others);
+
   /// Computes the multipliers of joints that hold nodes without unknowns (Plan::held) from the balance of forces at
   /// these nodes; the laws of the state's time are set. To be called for every state that is accepted. more: forces by
   /// node, own axes, in addition to those of elements.
@@ -97,6 +106,18 @@ class System {
   double largest_held_impulse(const State& state, const double* x) const;
 
  private:
+  /// What tangents were evaluated at.
+  struct Tangents {
+    long matrices = -1;  ///< LinearSolution::num_matrices
+    State state;
+    elements::Slopes slopes;
+    double time = 0.0;
+    laws::Side side = laws::Side::left;
+    bool take_symmetric_parts = false;
+    void checkpoint(records::Archive& archive) { archive(matrices, state, slopes, time, side, take_symmetric_parts); }
+  };
+  void keep_tangents(const State& state, const elements::Slopes& slopes);
+  bool evaluate_again(const std::vector<Tangents>& known, long matrices);
   void begin(const State& state, const elements::Slopes& slopes, bool tangent);
   std::optional<Trouble> end(const State& state);
   solve::VisitWork in_visits();
@@ -119,6 +140,7 @@ class System {
   RoundOff round_off_;
   Corrections corrections_;
   Workspace work_;
+  std::vector<Tangents> remembered_;  ///< room for as many as the solver may hold something of, and one more
 };
 
 }  // namespace bough::step

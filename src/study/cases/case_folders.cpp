@@ -127,8 +127,10 @@ std::vector<fs::path> settle_case_folders(const fs::path& batch, const CaseList&
     const std::optional<CaseResult> result = records.find(manifest.key);
     const bool is_left = own.ends_with(".former");
     const bool is_of_result = result && is_final(*result) && holds_case(folder, manifest.key, *result);
+    const bool is_open = !result || !is_final(*result);  // the case runs again, perhaps from a checkpoint there
+    const bool is_staging = name != name_of.end() && own == "." + name->second + ".bough-new";
     const bool is_in_place = name != name_of.end() && (own == name->second || manifest.instead_of == name->second);
-    if (is_left || (is_in_place && (is_of_result || !result))) continue;
+    if (is_left || (is_in_place && (is_of_result || is_open)) || (is_staging && is_open)) continue;
     if (name == name_of.end() || !is_of_result) {
       if (const auto left = remove_case(folder)) aside.push_back(*left);
       continue;
