@@ -139,15 +139,15 @@ void settle(const fs::path& staging, const fs::path& final) {
   remove_listed(staging);
 }
 
-/// Whether a staging folder holds rows of a run that was killed while it wrote them.
-bool has_rows_of_killed(const fs::path& staging) {
+/// Whether a staging folder holds the history of a run that was killed while it wrote it, with so many whole lines.
+bool has_lines_of_killed(const fs::path& staging, std::ptrdiff_t least_lines) {
   const std::optional<Manifest> there = read_manifest(staging);
   const fs::path rows = staging / "history.csv.partial";
   if (!there || there->state != FolderState::unfinished || there->made_by != "run" ||
       is_folder(staging / former_name) || !fs::is_regular_file(fs::symlink_status(rows)))
     return false;
   const std::string text = read_text(rows);
-  return std::count(text.begin(), text.end(), '\n') > 1;
+  return std::count(text.begin(), text.end(), '\n') >= least_lines;
 }
 
 /// Makes failed results of them: files get their names, the history ends with its last whole row.
@@ -298,7 +298,7 @@ void OutputFolder::settle_former_staging() {
 /// What a run that was killed had recorded is kept beside the folder, as failed results under a name of their own, and
 /// so is not removed by the next run. A case of a batch runs again, and its batch keeps what it needs.
 void OutputFolder::keep_of_killed() {
-  if (!owner_.key.empty() || !has_rows_of_killed(staging_)) return;
+  if (!owner_.key.empty() || !has_lines_of_killed(staging_, 2)) return;
   const fs::path parent = can_move_to(staging_, final_.parent_path()) ? final_.parent_path() : final_;
   fs::path place = parent / (final_.filename().string() + ".failed");
   for (int k = 2; fs::exists(fs::symlink_status(place)); ++k)
@@ -310,7 +310,7 @@ void OutputFolder::keep_of_killed() {
 fs::path OutputFolder::keep_of_killed(const fs::path& folder, const Owner& owner) {
   const fs::path final = resolved(folder), staging = staging_of(folder);
   FolderLock lock;
-  if (!lock.take(staging) || !has_rows_of_killed(staging)) return {};
+  if (!lock.take(staging) || !has_lines_of_killed(staging, 1)) return {};
   fs::path place = final;
   if (is_folder(final)) {
     require_ours(final, owner);

@@ -177,14 +177,15 @@ decltype(records::Summary::solver) solver_figures(step::System& system, int depe
     leaves += s.is_leaf() ? 1 : 0;
   }
   const solve::SolverCounters counters = system.linear().solver().counters();
-  decltype(records::Summary::solver) figures = {{"unknowns", static_cast<double>(tree.num_unknowns())},
-                                                {"sub_domains", static_cast<double>(tree.num_subdomains())},
-                                                {"leaves", static_cast<double>(leaves)},
-                                                {"levels", static_cast<double>(levels)},
-                                                {"factor_bytes", static_cast<double>(counters.memory_bytes)},
-                                                {"flops_per_factorization", counters.factor_flops},
-                                                {"delayed_pivots", static_cast<double>(system.linear().delayed_pivots())},
-                                                {"dependent_rows", static_cast<double>(dependent_rows)}};
+  decltype(records::Summary::solver) figures = {
+      {"unknowns", static_cast<double>(tree.num_unknowns())},
+      {"sub_domains", static_cast<double>(tree.num_subdomains())},
+      {"leaves", static_cast<double>(leaves)},
+      {"levels", static_cast<double>(levels)},
+      {"factor_bytes", static_cast<double>(counters.memory_bytes)},
+      {"flops_per_factorization", counters.factor_flops},
+      {"delayed_pivots", static_cast<double>(system.linear().delayed_pivots())},
+      {"dependent_rows", static_cast<double>(dependent_rows)}};
   if (const solve::Dual* dual = system.linear().solver().dual();
       dual != nullptr && system.counts().factorizations > 0) {
     const solve::InterfaceReport i = dual->interfaces().front();
