@@ -262,9 +262,9 @@ std::string tree_text(const Profile& p, const TextStyle& style, int most_rows) {
   double worst = std::nan("");
   for (const records::LevelProfile& l : p.levels)
     if (!std::isnan(l.condition_most)) worst = std::isnan(worst) ? l.condition_most : std::max(worst, l.condition_most);
-  if (!std::isnan(worst))
-    text += "Interfaces: condition up to " + rounded_text(worst, 3) + ", digits lost " +
-            rounded_text(std::log10(worst), 2) + "\n";
+  if (!std::isnan(worst)) text += "Interfaces: condition of their flexibilities up to " + rounded_text(worst, 3) + "\n";
+  if (p.speed.empty() && p.trouble.empty())
+    text += "The form \"" + p.form + "\" walks no sub-domains: only the step and its parts are timed\n";
   text += "Memory: solver " + bytes_text(static_cast<double>(p.solver_bytes)) + ", of which factors " +
           bytes_text(static_cast<double>(p.factor_bytes)) + " and element matrices " +
           bytes_text(static_cast<double>(p.element_bytes)) + "; program " +

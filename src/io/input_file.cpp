@@ -71,15 +71,15 @@ std::size_t InputFile::read(std::uint64_t offset, char* bytes, std::size_t count
 std::string InputFile::text(std::uint64_t offset) const {
   constexpr std::size_t piece = std::size_t{1} << 16u;
   std::string all;
-  all.reserve(static_cast<std::size_t>(size_ - std::min(offset, size_)) + 1);
-  for (std::size_t got = piece; got == piece;) {  // to the end, should the file have grown
+  // A byte more than there are tells the end; a file that has grown is read on.
+  for (auto wanted = static_cast<std::size_t>(size_ - std::min(offset, size_)) + 1;; wanted = piece) {
     const std::size_t before = all.size();
-    all.resize(before + piece);
-    got = read(offset + before, all.data() + before, piece);
+    all.resize(before + wanted);
+    const std::size_t got = read(offset + before, all.data() + before, wanted);
     all.resize(before + got);
     if (all.size() > most_bytes_) throw Unreadable(path_, too_large_text(most_bytes_));
+    if (got < wanted) return all;
   }
-  return all;
 }
 
 bool InputFile::next_line(std::string& line) {

@@ -533,6 +533,9 @@ void OutputCollection::set_aside(const fs::path& final) {
 
 std::optional<fs::path> OutputCollection::publish(FolderState state) {
   std::optional<Manifest> manifest = read_manifest(folder_);
+  // One that is there and cannot be read, for want of descriptors, lists what a new one would not.
+  if (!manifest && fs::exists(fs::symlink_status(folder_ / manifest_name)))
+    throw std::runtime_error("cannot read " + (folder_ / manifest_name).string());
   if (!manifest) manifest = manifest_of(owner_, folder_);
   manifest->state = state;
   for (FileRecord& file : manifest->files)

@@ -119,6 +119,9 @@ void Builder::add_beams() {
       if (k == 0 || k == last) {
         const int node = k == 0 ? start : end;
         port = section_port(node, plan.nodes[static_cast<std::size_t>(node)].pose, section, p.length);
+        const std::string name = beam.name + "." + std::to_string(k);  // of the section at the beam's end
+        node_of[name] = node;
+        if (port.has_offset) part_offset.emplace(name, port.offset);
       } else {
         port.node = add_node(beam.name + "." + std::to_string(k), section);
       }

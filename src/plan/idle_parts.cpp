@@ -86,7 +86,8 @@ void Builder::say_idle_parts() {
   std::map<std::size_t, std::vector<std::string>> welded_to;  // by rigid part, names of the parts that were welded to
                                                               // it
   for (const auto& [name, offset] : part_offset)
-    welded_to[parts.of(static_cast<std::size_t>(node_of.at(name)))].push_back(name);
+    if (name.find('.') == std::string::npos)  // sections of beams are no parts
+      welded_to[parts.of(static_cast<std::size_t>(node_of.at(name)))].push_back(name);
   for (const auto& [part, nodes] : members)
     if (std::none_of(nodes.begin(), nodes.end(), [&](std::size_t n) { return is_moved[n]; })) {
       std::vector<std::string> names;

@@ -462,13 +462,20 @@ int decimals_of(double x) {
 /// or an axis. 0: numbers with fewer decimals are meant as they stand, others have no precision but round-off.
 double written_precision(const scene::Scene& scene, double size, int& decimals) {
   constexpr int fewest = 6, most = 12;
+  constexpr int least_count = 6;  // coordinates with so many decimals: those of two points
   decimals = 0;
-  const auto look = [&decimals](const Vec3<double>& x) {
-    for (int i = 0; i < 3 && decimals <= most; ++i) decimals = std::max(decimals, decimals_of(x[i]));
+  int count = 0;
+  const auto look = [&](const Vec3<double>& x) {
+    for (int i = 0; i < 3 && decimals <= most; ++i) {
+      const int here = decimals_of(x[i]);
+      decimals = std::max(decimals, here);
+      count += here >= fewest ? 1 : 0;
+    }
   };
   for (const scene::Body& body : scene.bodies) look(body.placement.pose.x);
   for (const scene::Node& node : scene.nodes) look(node.placement.pose.x);
   look(scene.gravity);
+  if (count < least_count) return 0.0;
   if (decimals < fewest || decimals > most) return 0.0;
   return 4.0 * std::pow(10.0, -decimals) * std::max(1.0, 1.0 / size);
 }
@@ -478,7 +485,7 @@ double written_precision(const scene::Scene& scene, double size, int& decimals) 
 void Builder::choose_unknowns() {
   const Obstacle general = general_obstacle(*this);
   int decimals = 0;
-  const double precision = plan.precision = written_precision(scene, plan.length_scale, decimals);
+  const double precision = written_precision(scene, plan.length_scale, decimals);
   Motions before = Motions::spatial;
   const auto settle = [&](const char* name, const char* what, const char* why, const Obstacle& beforehand,
                           const std::vector<Vec3<double>>& directions, auto make) {
@@ -493,6 +500,7 @@ void Builder::choose_unknowns() {
         if (holds) {
           reason = why;
           const bool is_taken = !is_barred(name) && plan.unknowns.is_whole();
+          if (is_taken && tolerance > small) plan.precision = tolerance;
           if (is_taken) take(*this, motion);
           if (is_taken && tolerance > small) {
             char text[160];

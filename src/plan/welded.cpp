@@ -284,7 +284,9 @@ class Welder {
     }
     for (auto& [name, node] : b_.node_of) {
       const auto n = static_cast<std::size_t>(node);
-      if (root_of_[n] != n) b_.part_offset.emplace(name, offset_[n]);
+      if (root_of_[n] != n)
+        if (const auto [own, is_new] = b_.part_offset.emplace(name, offset_[n]); !is_new)
+          own->second = motion::compose(offset_[n], own->second);
       node = number_[n];
     }
   }

@@ -239,6 +239,9 @@ std::string profile_page(const Profile& p, const std::string& data) {
                    p.form + "\". " + std::to_string(p.steps) + (p.steps == 1 ? " step, " : " steps, ") +
                    std::to_string(p.factorizations) + " factorizations, " + std::to_string(p.threads) +
                    (p.threads == 1 ? " thread." : " threads."));
+  if (p.speed.empty() && p.trouble.empty())
+    page.paragraph("The form \"" + p.form + "\" walks no sub-domains: only the step and its parts are timed.",
+                   Tone::soft);
   page.section("Hierarchy", "hierarchy");
   page.figure(
       icicle_html(p),

@@ -56,7 +56,8 @@ std::optional<RowsInSpace> find_rows_in_space(const scene::Scene& scene, const s
   whole.sensors.clear();
   whole.solver = {};
   whole.without.insert(whole.without.end(), {"planar", "line", "translation", "held", "welded"});
-  const plan::Plan plan = plan::make_plan(whole);
+  plan::Plan plan = plan::make_plan(whole);
+  plan.precision = system.plan().precision;  // in which the scene is planar, and its rows depend
   step::System in_space(plan, whole.solver, schedule::make_serial_walker());
   const bool is_alike = plan.nodes.size() == state.num_nodes() && plan.joints.size() == state.turns.size() &&
                         static_cast<std::size_t>(plan.num_multipliers) == state.multipliers.size();

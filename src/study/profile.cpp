@@ -391,7 +391,9 @@ records::Profile profile(const scene::Scene& given, const ProfileOptions& option
   for (const schedule::ChunkTimes& c : run.times.chunks) wall += c.wall_sum;
   if (most > 0.0) out.load_balance = busy / (out.threads * most);
   if (wall > 0.0) out.efficiency = busy / (out.threads * wall);
-  if (out.steps == 0) return out;
+  const bool has_visits =
+      scene.solver.form == scene::SolverForm::local || scene.solver.form == scene::SolverForm::augmented;
+  if (out.steps == 0 || !has_visits) return out;
 
   NullRecorder nobody;
   WatchedRun alone;

@@ -419,7 +419,7 @@ expect 0 'sub-domains on' profile good.json --out good.profile --steps 5
 for file in profile.html profile.json trace.json; do holds test -s good.profile/$file; done
 expect 0 silence profile good.json --steps 5 --quiet --threads 1
 holds test -s good.profile/trace.json
-expect 2 '/solver/form' profile good.json --set /solver/form=monolithic
+expect 0 'walks no sub-domains' profile good.json --set /solver/form=monolithic
 expect 2 . profile good.json --steps 0
 expect 0 '"form"' tune good.json --steps 3 --seconds 0 --out solver.json
 expect 0 silence run good.json --out tuned.out --quiet --set "/solver=$(cat solver.json)"

@@ -104,16 +104,35 @@ TEST(Interfaces, of_links_carry_what_their_joints_carry) {
   EXPECT_GT(std::abs(r.history.last("a.fy")), 1.0);
 }
 
+/// The first and the last section of a beam have names as its inner nodes have, also where they lie beside the node.
+TEST(Interfaces, ends_of_beams_have_places) {
+  scene::Scene s = cantilever({R"-(/analysis={"kind": "static"})-",
+                               R"-(/sensors=[{"name": "first", "kind": "position", "at": "bar.0"},
+                                             {"name": "root", "kind": "position", "at": "root"},
+                                             {"name": "last", "kind": "position", "at": "bar.8"},
+                                             {"name": "tip", "kind": "position", "at": "tip"}])-"});
+  s.beams.front().end_offset = scene::Vec3{{0.5, 0.0, 0.0}};
+  const support::Table h = run_ok(s).history;
+  for (const char* c : {".x", ".y", ".z"})
+    EXPECT_DOUBLE_EQ(h.last(std::string("first") + c), h.last(std::string("root") + c));
+  const double apart[] = {h.last("last.x") - h.last("tip.x"), h.last("last.y") - h.last("tip.y"),
+                          h.last("last.z") - h.last("tip.z")};
+  EXPECT_NEAR(std::hypot(apart[0], apart[1], apart[2]), 0.5, 1e-12);
+}
+
 /// A bar pulled at both ends shows the pull at every node of every interface, on both sides of a cut with opposite
 /// signs, in the ground's axes and in those of the node; the resultant on a part in the middle is zero.
 TEST(Interfaces, show_the_pull_of_a_bar_at_each_node) {
   for (const char* form : {"local", "augmented"}) {
     std::string sensors;
-    for (const char* path : {"0", "1", "0.0", "0.1", "1.0", "1.1"})
-      for (int node = 0; node <= 8; ++node)
-        sensors += std::string(sensors.empty() ? "" : ",") + R"-({"name": ")-" + path + "@" + std::to_string(node) +
+    for (const std::string path : {"0", "1", "0.0", "0.1", "1.0", "1.1"})
+      for (int node = 0; node <= 8; ++node) {
+        const std::string name =
+            (path.size() > 1 ? path.substr(0, 1) + "_" + path.substr(2) : path) + "@" + std::to_string(node);
+        sensors += std::string(sensors.empty() ? "" : ",") + R"-({"name": ")-" + name +
                    R"-(", "kind": "interface_force", "subdomain": ")-" + path + R"-(", "at": "bar.)-" +
                    std::to_string(node) + R"-(", "axes": "body"})-";
+      }
     scene::Scene s =
         cantilever({R"-(/analysis={"kind": "static", "load_steps": 1})-", "/loads/0/force=[1000, 0, 0]",
                     "/sensors=[" + sensors + "]", R"-(/solver={"depth": 2, "form": ")-" + std::string(form) + "\"}"});

@@ -17,6 +17,7 @@
 #include "bough/io/json_value.hpp"
 #include "bough/io/profile_json.hpp"
 #include "bough/plan/plan.hpp"
+#include "bough/scene/components.hpp"
 #include "bough/study/tune.hpp"
 #include "support/scenes.hpp"
 
