@@ -457,9 +457,9 @@ int decimals_of(double x) {
   return 16;
 }
 
-/// Relative precision of places and directions whose numbers were written with six to twelve decimals, as programs
-/// write them: half a unit in the last place, of three coordinates, in places and in directions that turn with a place
-/// or an axis. 0: numbers with fewer decimals are meant as they stand, others have no precision but round-off.
+/// Relative precision of places and directions if at least six coordinates were written with six to twelve decimals, as
+/// programs write them: four units in the last place, which rounding of a place (.87), of an axis and of a body's
+/// rotation (1.7 each) adds up to. 0: fewer decimals are written by hand, and meant; others are round-off.
 double written_precision(const scene::Scene& scene, double size, int& decimals) {
   constexpr int fewest = 6, most = 12;
   constexpr int least_count = 6;  // coordinates with so many decimals: those of two points

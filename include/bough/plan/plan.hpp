@@ -280,8 +280,8 @@ struct Plan {
   blocks::BlockGraph graph;
   std::vector<int> block_of_node;  ///< -1: held
   double length_scale = 1.0;       ///< [m], size of the structure
-  /// Relative precision in which places and directions of the scene are written, as of numbers with nine decimals; 0:
-  /// they have no precision but round-off.
+  /// Relative precision in which places and directions of the scene are written, if its unknowns were chosen within it;
+  /// 0: the scene is taken as it stands.
   double precision = 0.0;
   Mobility mobility;
   std::vector<std::string> notes;  ///< choices that the plan made where the scene leaves them open, in words

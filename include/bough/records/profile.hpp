@@ -61,8 +61,8 @@ struct SubdomainProfile {
   double largest_force() const;      ///< magnitude at a node of the interface [N]; NaN for the root
   double largest_moment() const;     ///< [N m]
   std::vector<double> spectrum;      ///< singular values of the scaled flexibility, descending; empty: not computed
-  /// Of an interface that is examined: the scaled flexibility P^1/2 F P^1/2 by columns, and the nodes and components
-  /// of its unknowns, as "tip.x".
+  /// Of an interface that is examined: the scaled flexibility P^1/2 F P^1/2 by columns, and the owner and number
+  /// of each unknown, as "'tip', 1".
   std::vector<double> flexibility;
   std::vector<std::string> unknowns;
 };

@@ -82,7 +82,7 @@ struct InterfaceMatrices {
   std::vector<std::int64_t> unknowns;  ///< of the tree's numbering
   std::vector<double> stiffness;       ///< S: the sub-domain condensed to its interface
   std::vector<double> penalty;         ///< the diagonal of P
-  std::vector<double> flexibility;     ///< F = s^2 (S + P)^-1, for s = 1
+  std::vector<double> flexibility;     ///< F = (S + P)^-1, of multipliers with s = 1
 };
 
 /// Interface of one sub-domain, or the one interface problem of a form with global multipliers, after factor().
