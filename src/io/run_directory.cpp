@@ -83,8 +83,6 @@ std::optional<RunDirectory::Checkpoint> RunDirectory::last_checkpoint_in(const f
   return last;
 }
 
-/// Head: format, program, identity, number, time, bytes that follow, their hash; in words, so that it can be told what
-/// a file is that cannot be used.
 std::optional<RunDirectory::Checkpoint> RunDirectory::read_checkpoint(const fs::path& file) {
   const auto unusable = [&](const std::string& why) {
     told_.push_back(file.string() + " cannot be used: " + why);
@@ -97,20 +95,17 @@ std::optional<RunDirectory::Checkpoint> RunDirectory::read_checkpoint(const fs::
     return unusable(fault.why());
   }
   const std::size_t end = bytes.find('\n');
-  std::vector<std::string> words;
-  if (end == std::string::npos || !split_csv_line(std::string_view(bytes).substr(0, end), words) || words.size() != 7 ||
-      !words[0].starts_with("bough checkpoint"))
-    return unusable("it is not a checkpoint, or was cut off");
-  if (words[0] != checkpoint_format) return unusable("it has the format of another version, \"" + words[0] + "\"");
-  if (words[1] != origin_.program_hash) return unusable("another program has written it");
-  if (words[2] != identity()) return unusable("it is of another scene, or of other values of --set");
-  Checkpoint checkpoint{file.parent_path(), 0, 0.0, bytes.substr(end + 1)};
-  double number = 0.0, size = 0.0;
-  if (!read_number(words[3], number) || !read_number(words[4], checkpoint.time) || !read_number(words[5], size))
-    return unusable("its first line is damaged");
-  checkpoint.number = whole_number<long>(number);
-  if (static_cast<double>(checkpoint.bytes.size()) != size) return unusable("it was cut off");
-  if (digest_of(checkpoint.bytes) != words[6]) return unusable("it is damaged");
+  const std::optional<CheckpointHead> head =
+      end == std::string::npos ? std::nullopt : read_checkpoint_head(std::string_view(bytes).substr(0, end));
+  if (!head || !head->format.starts_with("bough checkpoint"))
+    return unusable("it is not a checkpoint, or was cut off, or its first line is damaged");
+  if (head->format != checkpoint_format)
+    return unusable("it has the format of another version, \"" + head->format + "\"");
+  if (head->program_hash != origin_.program_hash) return unusable("another program has written it");
+  if (head->identity != identity()) return unusable("it is of another scene, or of other values of --set");
+  Checkpoint checkpoint{file.parent_path(), head->number, head->time, bytes.substr(end + 1)};
+  if (checkpoint.bytes.size() != head->num_bytes) return unusable("it was cut off");
+  if (digest_of(checkpoint.bytes) != head->digest) return unusable("it is damaged");
   return checkpoint;
 }
 
@@ -141,12 +136,15 @@ void RunDirectory::checkpoint(std::string_view state) {
   take_files(archive, {});
   const std::string bytes = archive.bytes() + std::string(state);
   ++num_checkpoints_;
-  std::string head = std::string(checkpoint_format) + "," + origin_.program_hash + "," + identity() + "," +
-                     std::to_string(num_checkpoints_) + ",";
-  append_number(head, time_);
-  head += "," + std::to_string(bytes.size()) + "," + digest_of(bytes);
+  const CheckpointHead head{std::string(checkpoint_format),
+                            origin_.program_hash,
+                            identity(),
+                            num_checkpoints_,
+                            time_,
+                            bytes.size(),
+                            digest_of(bytes)};
   AtomicFile file(folder_->staging() / (num_checkpoints_ % 2 == 1 ? "checkpoint.1" : "checkpoint.2"));
-  file.write(head + "\n");
+  file.write(head.text());
   file.write(bytes);
   file.commit();
   kept_at_ = std::chrono::steady_clock::now();
