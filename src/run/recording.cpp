@@ -132,11 +132,23 @@ void Recording::draw(const step::State& state, bool is_last) {
   }
   turns_.begin(system_, state);
   recorder_.motion(frame);
+  if (frame.for_others) hand_out(state);
+}
+
+records::StoredState Recording::named(const step::State& state) {
+  if (!parts_) parts_.emplace(scene_, system_.plan());
+  return parts_->store(system_, state);
+}
+
+void Recording::hand_out(const step::State& state) {
+  if (!recorder_.keeps_states() || rows_ == 0 || handed_out_ == state.time) return;
+  handed_out_ = state.time;
+  recorder_.state(named(state));
 }
 
 void Recording::checkpoint(records::Archive& archive) {
   archive(account_, conservation_, gate_, pictures_, turns_, is_turn_told_, figures_, measures_, springs_, far_,
-          error_watch_, values_, row_, rows_);
+          error_watch_, handed_out_, values_, row_, rows_);
 }
 
 void Recording::come_back() {
