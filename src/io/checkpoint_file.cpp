@@ -1,10 +1,12 @@
 #include "checkpoint_file.hpp"
 
+#include <cstdint>
 #include <stdexcept>
 #include <vector>
 
-#include "bough/io/columns.hpp"
+#include "bough/io/atomic_file.hpp"
 #include "bough/io/digest.hpp"
+#include "bough/io/history.hpp"
 #include "bough/io/input_file.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/records/archive.hpp"
@@ -30,12 +32,12 @@ CheckpointFile read_checkpoint_file(const std::filesystem::path& file) try {
       !words[0].starts_with("bough checkpoint"))
     return unusable("it is not a checkpoint, or was cut off");
   if (words[0] != checkpoint_format) return unusable("it has the format of another version, \"" + words[0] + "\"");
-  found.program_hash = words[1];
-  found.identity = words[2];
+  found.head.program_hash = words[1];
+  found.head.identity = words[2];
   double number = 0.0, size = 0.0;
-  if (!read_number(words[3], number) || !read_number(words[4], found.time) || !read_number(words[5], size))
+  if (!read_number(words[3], number) || !read_number(words[4], found.head.time) || !read_number(words[5], size))
     return unusable("its first line is damaged");
-  found.number = whole_number<long>(number);
+  found.head.number = whole_number<long>(number);
   const std::string_view rest = std::string_view(bytes).substr(end + 1);
   if (static_cast<double>(rest.size()) != size) return unusable("it was cut off");
   if (digest_of(rest) != words[6]) return unusable("it is damaged");
@@ -44,20 +46,32 @@ CheckpointFile read_checkpoint_file(const std::filesystem::path& file) try {
   found.files = archive.rest();
   return found;
 } catch (const Unreadable& fault) {
-  return {.fault = fault.why()};
+  CheckpointFile none;
+  none.fault = fault.why();
+  return none;
 } catch (const std::runtime_error& fault) {
-  return {.fault = fault.what()};
+  CheckpointFile none;
+  none.fault = fault.what();
+  return none;
 }
 
-std::string checkpoint_text(const CheckpointFile& checkpoint) {
-  records::Archive archive;
-  std::string state = checkpoint.state;
-  archive(state);
-  const std::string bytes = archive.bytes() + checkpoint.files;
-  std::string head = std::string(checkpoint_format) + "," + checkpoint.program_hash + "," + checkpoint.identity + "," +
-                     std::to_string(checkpoint.number) + ",";
-  append_number(head, checkpoint.time);
-  return head + "," + std::to_string(bytes.size()) + "," + digest_of(bytes) + "\n" + bytes;
+void write_checkpoint_file(const std::filesystem::path& path, const CheckpointHead& head, std::string_view state,
+                           std::string_view files) {
+  const auto length = static_cast<std::uint64_t>(state.size());  // as an archive has it before a string
+  const std::string_view parts[] = {{reinterpret_cast<const char*>(&length), sizeof length}, state, files};
+  Digest digest;
+  std::size_t bytes = 0;
+  for (const std::string_view part : parts) {
+    digest.add(part);
+    bytes += part.size();
+  }
+  std::string line = std::string(checkpoint_format) + "," + head.program_hash + "," + head.identity + "," +
+                     std::to_string(head.number) + ",";
+  append_number(line, head.time);
+  AtomicFile file(path);
+  file.write(line + "," + std::to_string(bytes) + "," + digest.text() + "\n");
+  for (const std::string_view part : parts) file.write(part);
+  file.commit();
 }
 
 }  // namespace bough::io

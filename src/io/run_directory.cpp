@@ -108,12 +108,12 @@ std::vector<RunDirectory::Checkpoint> RunDirectory::checkpoints_in(const fs::pat
 
 std::optional<RunDirectory::Checkpoint> RunDirectory::read_checkpoint(const fs::path& file) {
   CheckpointFile found = read_checkpoint_file(file);
-  if (found.fault.empty() && found.program_hash != origin_.program_hash)
+  if (found.fault.empty() && found.head.program_hash != origin_.program_hash)
     found.fault = "another program has written it";
-  else if (found.fault.empty() && found.identity != identity())
+  else if (found.fault.empty() && found.head.identity != identity())
     found.fault = "it is of another scene, or of other values of --set or --from";
   if (found.fault.empty())
-    return Checkpoint{file.parent_path(),       found.number,           found.time,
+    return Checkpoint{file.parent_path(),       found.head.number,      found.head.time,
                       file.filename().string(), std::move(found.state), std::move(found.files)};
   told_.push_back(file.string() + " cannot be used: " + found.fault);
   return std::nullopt;
@@ -145,14 +145,8 @@ void RunDirectory::checkpoint(std::string_view state) {
     sync_file(folder_->staging() / frame_records_[synced_frames_].name);
   take_files(archive, {});
   ++num_checkpoints_;
-  AtomicFile file(folder_->staging() / (num_checkpoints_ % 2 == 1 ? "checkpoint.1" : "checkpoint.2"));
-  file.write(checkpoint_text({.program_hash = origin_.program_hash,
-                              .identity = identity(),
-                              .number = num_checkpoints_,
-                              .time = time_,
-                              .state = std::string(state),
-                              .files = archive.bytes()}));
-  file.commit();
+  write_checkpoint_file(folder_->staging() / (num_checkpoints_ % 2 == 1 ? "checkpoint.1" : "checkpoint.2"),
+                        {origin_.program_hash, identity(), num_checkpoints_, time_}, state, archive.bytes());
   kept_at_ = std::chrono::steady_clock::now();
   kept_time_ = time_;
 }

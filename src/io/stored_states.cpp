@@ -46,7 +46,8 @@ void list_states(const fs::path& path, std::vector<Place>& places, std::vector<s
     std::vector<std::string> words;
     double time = 0.0, bytes = 0.0;
     if (line.empty() || !split_csv_line(line, words) || words.size() != 3 || !read_number(words[0], time) ||
-        !read_number(words[1], bytes) || !(bytes >= 0.0 && bytes <= static_cast<double>(file.size())))
+        !std::isfinite(time) || !read_number(words[1], bytes) ||
+        !(bytes >= 0.0 && bytes <= static_cast<double>(file.size())))
       return;
     offset += line.size() + 1;
     const auto size = static_cast<std::uint64_t>(bytes);
@@ -180,8 +181,9 @@ FoundState find_state(const fs::path& directory, std::optional<double> time, std
   for (FoundState& found : whole)
     if (is_asked(found.state.time) && (!best || found.state.time > best->state.time)) best = std::move(found);
   if (best) return std::move(*best);
-  throw NoSuchState(directory.string() + " holds no state of " + (time ? number(*time) : "any time") +
-                    ", and states are not interpolated; " + nearest_of(whole, places, time.value_or(last)));
+  if (!time) throw NoSuchState(directory.string() + " holds no state that is whole");
+  throw NoSuchState(directory.string() + " holds no state of " + number(*time) + ", and states are not interpolated; " +
+                    nearest_of(whole, places, *time));
 }
 
 }  // namespace bough::io

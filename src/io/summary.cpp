@@ -467,6 +467,8 @@ SummaryFile read_whole_summary(const std::filesystem::path& directory, const std
   const std::string run_again = "; run the scene again, into a new folder";
   const auto is_there = [&](const std::string& name) { return std::filesystem::exists(directory / name); };
   if (!std::filesystem::exists(directory)) throw std::runtime_error("there is no folder " + directory.string());
+  if (!std::filesystem::is_directory(directory))
+    throw std::runtime_error(directory.string() + " is a file, not a folder of results");
   const std::optional<Manifest> manifest = read_manifest(directory);
   if (!is_there("summary.json") && manifest && manifest->made_by != "run")
     throw std::runtime_error(

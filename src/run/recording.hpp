@@ -64,11 +64,13 @@ class Recording {
  private:
   bool is_due(long row, bool is_last) const;
   void draw(const step::State& state, bool is_last);
-  bool is_time_reached(const scene::Measure& m) const;
+  /// Whether the run passes the time of a figure, if it has one: it may start later, and its end may have been reduced.
+  bool is_time_passed(const std::optional<double>& time) const;
 
   const scene::Scene& scene_;
   step::System& system_;
   records::Recorder& recorder_;
+  double start_;  ///< time at which the run starts [s]
   Account account_;
   Conservation conservation_;
   FiniteGate gate_;

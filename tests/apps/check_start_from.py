@@ -5,6 +5,7 @@ of the folder it starts from is touched."""
 import csv
 import hashlib
 import json
+import os
 import pathlib
 import shutil
 import signal
@@ -75,6 +76,16 @@ with tempfile.TemporaryDirectory() as place:
     run(longer, "--out", place / "no", "--from", first, "--time", "0.2001", status=2,
         says=["no state of 0.2001", "not interpolated", "0.2", "the nearest of"])
     run(longer, "--out", place / "no", "--from", place / "nothing", status=2, says=["is not a folder"])
+    said = subprocess.run([program, "view", str(scene)], capture_output=True, text=True).stderr
+    expect("is a file, not a folder of results" in said, f"view of a file says: {said}")
+    (place / "pipe").mkdir()
+    os.mkfifo(place / "pipe" / "states.bin")
+    run(longer, "--out", place / "no", "--from", place / "pipe", status=2, says=["a pipe, not a file"])
+    (place / "lies").mkdir()
+    for text in ("bough states 1\nnan,3,ab\nabc", "bough states 1\n1,99999999999999999999,ab\n", "bough states 1\n1,3,ab\nabc",
+                 "another\n", ""):
+        (place / "lies" / "states.bin").write_text(text)
+        run(longer, "--out", place / "no", "--from", place / "lies", status=2, says=["cannot start from a state"])
     (place / "empty").mkdir()
     run(longer, "--out", place / "no", "--from", place / "empty", status=2, says=["holds no states"])
     expect(not (place / "no").exists(), "a run that does not start leaves a folder")
@@ -127,6 +138,9 @@ with tempfile.TemporaryDirectory() as place:
                f"{name} of a run that started from a state and was cut is another one")
     words[2] = place / "otherwise"
     run(*words[:-1], "0.2", "--resume", says=["another scene, or of other values of --set or --from", "the run begins"])
+
+    # A run that is to go on in a folder that does not exist yet, nor its parent, begins.
+    run(scene, "--out", place / "of" / "others" / "new", "--resume", says=["the run begins"])
 
     # A run that has ended has nothing left to do.
     before = contents(place / "whole")

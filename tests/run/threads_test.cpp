@@ -12,6 +12,7 @@
 #include "bough/io/read_scene.hpp"
 #include "bough/run/estimate.hpp"
 #include "bough/run/memory_run.hpp"
+#include "bough/run/simulate.hpp"
 #include "bough/scene/analysis_kinds.hpp"
 #include "support/source_dir.hpp"
 

@@ -233,6 +233,17 @@ TEST(StartFrom, says_which_parts_the_state_does_not_have) {
   EXPECT_TRUE(kept.summary.changed_velocities.empty()) << "the velocity of a is that of the state";
 }
 
+TEST(StartFrom, passes_figures_of_times_before_it) {
+  const StatePtr state = state_of(support::scene_of(two_bodies));
+  const Kept kept = run_from(support::scene_of(two_bodies, {"/analysis/end_time=0.2", R"(/expected=[
+      {"quantity": "a.x", "time": 0.05, "value": 0.05, "tolerance": 1e-9, "source": "uniform motion"},
+      {"quantity": "a.x", "time": 0.15, "value": 0.15, "tolerance": 1e-9, "source": "uniform motion"}])"}),
+                             state);
+  ASSERT_EQ(kept.summary.expected.size(), 2u) << kept.summary.cause;
+  EXPECT_FALSE(kept.summary.expected[0].reached);
+  EXPECT_TRUE(kept.summary.expected[1].reached && kept.summary.expected[1].holds) << kept.summary.expected[1].value;
+}
+
 /// Runs a scene from a state and expects it to fail for a reason.
 void expect_refusal(const scene::Scene& scene, const StatePtr& state, const std::vector<std::string>& words) {
   const Kept kept = run_from(scene, state);
