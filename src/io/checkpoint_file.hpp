@@ -4,17 +4,11 @@
 #include <string>
 #include <string_view>
 
+#include "bough/io/unfinished_run.hpp"
+
 namespace bough::io {
 
-struct CheckpointHead {
-  std::string program_hash, identity;  ///< of the scene
-  long number = 0;                     ///< of those that the run has made
-  double time = 0.0;                   ///< [s], or load factor
-};
-
-/// A line of words, so that it can be told what a file is that cannot be used:
-///   format, hash of the program, identity of the scene, number, time, bytes that follow, their hash
-/// then the state of the run, which begins with a records::StoredState, and the positions in all files.
+/// After the head comes the state of the run, which begins with a records::StoredState, then the positions in all files.
 struct CheckpointFile {
   std::string fault;  ///< why it cannot be used, in words; empty: it can
   CheckpointHead head;
@@ -23,8 +17,8 @@ struct CheckpointFile {
 
 /// All but the fault has no meaning where there is one.
 CheckpointFile read_checkpoint_file(const std::filesystem::path& file);
-/// The file is on the disk before it gets its name.
-void write_checkpoint_file(const std::filesystem::path& file, const CheckpointHead& head, std::string_view state,
+/// Format, length and hash of the head are those of what is written. The file is on the disk before it gets its name.
+void write_checkpoint_file(const std::filesystem::path& file, CheckpointHead head, std::string_view state,
                            std::string_view files);
 
 }  // namespace bough::io

@@ -146,7 +146,7 @@ void RunDirectory::checkpoint(std::string_view state) {
   take_files(archive, {});
   ++num_checkpoints_;
   write_checkpoint_file(folder_->staging() / (num_checkpoints_ % 2 == 1 ? "checkpoint.1" : "checkpoint.2"),
-                        {origin_.program_hash, identity(), num_checkpoints_, time_}, state, archive.bytes());
+                        {{}, origin_.program_hash, identity(), num_checkpoints_, time_, 0, {}}, state, archive.bytes());
   kept_at_ = std::chrono::steady_clock::now();
   kept_time_ = time_;
 }

@@ -34,23 +34,42 @@ std::optional<RunProgress> read_progress(const fs::path& file) try {
 /// Of the later one of two checkpoints, by the line at its head.
 std::optional<double> last_checkpoint_time(const fs::path& place) {
   std::optional<double> time;
-  double last = 0.0;
+  long last = 0;
   for (const char* name : {"checkpoint.1", "checkpoint.2"}) try {
       InputFile file(place / name);
       std::string line;
-      std::vector<std::string> words;
-      double number = 0.0, at = 0.0;
-      if (!file.next_line(line) || !split_csv_line(line, words) || words.size() != 7 ||
-          !read_number(words[3], number) || !read_number(words[4], at) || number < last)
-        continue;
-      last = number;
-      time = at;
+      const std::optional<CheckpointHead> head = file.next_line(line) ? read_checkpoint_head(line) : std::nullopt;
+      if (!head || head->number < last) continue;
+      last = head->number;
+      time = head->time;
     } catch (const Unreadable&) {
     }
   return time;
 }
 
 }  // namespace
+
+std::string CheckpointHead::text() const {
+  std::string line = format + "," + program_hash + "," + identity + "," + std::to_string(number) + ",";
+  append_number(line, time);
+  return line + "," + std::to_string(num_bytes) + "," + digest + "\n";
+}
+
+std::optional<CheckpointHead> read_checkpoint_head(std::string_view line) {
+  std::vector<std::string> words;
+  CheckpointHead head;
+  double number = 0.0, size = 0.0;
+  if (!split_csv_line(line, words) || words.size() != 7 || !read_number(words[3], number) ||
+      !read_number(words[4], head.time) || !read_number(words[5], size))
+    return std::nullopt;
+  head.format = words[0];
+  head.program_hash = words[1];
+  head.identity = words[2];
+  head.number = whole_number<long>(number);
+  head.num_bytes = whole_number<std::uint64_t>(size);
+  head.digest = words[6];
+  return head;
+}
 
 std::string progress_text(const RunProgress& progress) {
   JsonText json;

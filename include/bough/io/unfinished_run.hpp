@@ -1,13 +1,29 @@
 #pragma once
 /// What a run has recorded that goes on, was killed, or was stopped, for readers that do not wait for its end.
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "bough/io/history.hpp"
 #include "bough/records/run.hpp"
 
 namespace bough::io {
+
+/// The first line of a checkpoint, in words, so that it can be told what a file is that cannot be used.
+struct CheckpointHead {
+  std::string format, program_hash;
+  std::string identity;         ///< of the scene with all that was changed in it, or of the case
+  long number = 0;              ///< of the run's checkpoints, from 1
+  double time = 0.0;            ///< [s], or load factor
+  std::uint64_t num_bytes = 0;  ///< that follow the line
+  std::string digest;           ///< of these
+
+  std::string text() const;
+};
+/// None: the line is no such head.
+std::optional<CheckpointHead> read_checkpoint_head(std::string_view line);
 
 /// `progress.json` of a run: how far it had come when it told last.
 struct RunProgress {
@@ -23,8 +39,8 @@ std::string progress_text(const RunProgress& progress);
 struct UnfinishedRun {
   std::filesystem::path place;  ///< folder in which its files stand, some of them as <name>.partial
   bool goes_on = false;         ///< its writer is at work
-  std::optional<RunProgress> progress;
-  std::optional<double> checkpoint;  ///< time of the last one
+  std::optional<RunProgress> progress = {};
+  std::optional<double> checkpoint = {};  ///< time of the last one
 };
 
 /// The run whose results belong into a directory, or stand there, without having ended; none: there is none, or there
