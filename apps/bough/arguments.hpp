@@ -22,6 +22,8 @@ struct RunArguments {
   double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
   bool quiet = false, replace = false, resume = false;
   bool check_expected = false, strict = false;
+  std::filesystem::path from;  ///< folder of a run in a state of which this one starts; empty: the scene's own start
+  std::optional<double> time;  ///< of that state [s], or load factor; none: the last one there is
 };
 struct ViewArguments {
   std::filesystem::path directory, other, out, svg, png;

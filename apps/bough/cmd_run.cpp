@@ -1,12 +1,14 @@
 /// bough run SCENE: one simulation from a scene to a directory of results.
 #include <algorithm>
 #include <iostream>
+#include <memory>
 #include <optional>
 
 #include "arguments.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/io/run_directory.hpp"
+#include "bough/io/stored_states.hpp"
 #include "bough/run/simulate.hpp"
 #include "bough/version.hpp"
 #include "memory_limit.hpp"
@@ -20,6 +22,7 @@ namespace {
 /// Runs the scene; what cannot be written to its end is kept as far as it goes. Nothing, after a message, where there
 /// are no results.
 std::optional<records::Summary> simulate_into(io::RunDirectory& directory, const io::SceneFile& file,
+                                              const std::shared_ptr<const records::StoredState>& from,
                                               const RunArguments& arguments) {
   catch_interrupts();
   ProgressBar bar(arguments.quiet);
@@ -30,6 +33,7 @@ std::optional<records::Summary> simulate_into(io::RunDirectory& directory, const
   };
   run::SimulateOptions options;
   options.threads = arguments.threads > 0 ? arguments.threads : default_threads();
+  options.from = from;
   records::Summary summary;
   try {
     summary = run::simulate(file.scene, options, directory, on_step);
@@ -45,6 +49,38 @@ std::optional<records::Summary> simulate_into(io::RunDirectory& directory, const
   return summary;
 }
 
+/// The state in which the run starts; none, after a message, where there is none or the scene cannot start from it.
+std::optional<io::FoundState> find_start(const RunArguments& arguments, const scene::Scene& scene) {
+  const std::string name = "bough: " + arguments.scene.string() + ": ";
+  std::vector<std::string> skipped;
+  std::optional<io::FoundState> found;
+  std::string fault;
+  try {
+    found = io::read_unchanged(arguments.from, [&] {
+      skipped.clear();
+      return io::find_state(arguments.from, arguments.time, skipped);
+    });
+  } catch (const std::runtime_error& error) {
+    fault = error.what();
+  }
+  for (const std::string& text : skipped) std::cerr << name << text << "\n";
+  if (!found) {
+    std::cerr << name << "cannot start from a state of another run: " << fault << "\n";
+    return std::nullopt;
+  }
+  const std::vector<std::string> problems = run::problems_of_start(scene, found->state);
+  for (const std::string& problem : problems)
+    std::cerr << name << "cannot start from " << found->file.string() << ": " << problem << "\n";
+  if (!problems.empty()) found.reset();
+  return found;
+}
+
+/// What was told about checkpoints since the last call.
+void print_told(const io::RunDirectory& directory, const std::string& scene, bool quiet, std::size_t& printed) {
+  for (; printed < directory.told().size(); ++printed)
+    if (!quiet) std::cerr << "bough: " << scene << ": " << directory.told()[printed] << "\n";
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments) {
@@ -52,14 +88,28 @@ int run(const RunArguments& arguments) {
   print_problems(arguments.scene, file, arguments.quiet);
   if (!file.ok()) return exit_bad_input;
   if (refuse_for_memory(arguments.scene, file.scene, arguments.memory_limit)) return exit_bad_input;
+  io::RunOrigin origin = origin_of(arguments.scene, file, arguments.overrides);
+  std::shared_ptr<const records::StoredState> from;
+  if (!arguments.from.empty()) {
+    std::optional<io::FoundState> found = find_start(arguments, file.scene);
+    if (!found) return exit_bad_input;
+    origin.from = io::StartOrigin{arguments.from, found->file, found->state.time, found->hash};
+    from = std::make_shared<const records::StoredState>(std::move(found->state));
+  }
   io::RunDirectory directory(arguments.out.empty() ? std::filesystem::path(file.scene.name + ".out") : arguments.out,
-                             std::string(version), origin_of(arguments.scene, file, arguments.overrides),
-                             arguments.replace,
+                             std::string(version), std::move(origin), arguments.replace,
                              {file.scene.output.checkpoint, file.scene.output.checkpoint_time, arguments.resume});
+  if (arguments.resume && !arguments.replace && directory.has_all()) {
+    if (!arguments.quiet)
+      std::cout << file.scene.name << ": the run has ended, and its results stand in " << directory.directory().string()
+                << "; nothing was done (--replace runs it anew)\n";
+    return exit_done;
+  }
   directory.open();
-  for (const std::string& text : directory.told())
-    if (!arguments.quiet) std::cerr << "bough: " << file.scene.name << ": " << text << "\n";
-  const std::optional<records::Summary> summary = simulate_into(directory, file, arguments);
+  std::size_t printed = 0;
+  print_told(directory, file.scene.name, arguments.quiet, printed);
+  const std::optional<records::Summary> summary = simulate_into(directory, file, from, arguments);
+  print_told(directory, file.scene.name, arguments.quiet, printed);
   if (!summary) return exit_failed;
   if (!arguments.quiet)
     std::cout << result_text(*summary, directory.directory().string(), directory.files()) << std::flush;

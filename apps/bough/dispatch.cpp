@@ -84,13 +84,25 @@ void add_run(CLI::App& app, RunArguments& a, int& code) {
                             "  bough run four_bar.json --out results --threads 4\n"
                             "  bough run four_bar.json --set /analysis/step_size=1e-4 --set /output/motion=true\n"
                             "  bough run four_bar.json --out results --resume\n"
+                            "  bough run braked.json --from results --time 0.5\n"
                             "Exit status: 0 done, 1 the run failed, 2 bad input, 3 stopped: --resume goes on.");
   verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
   verb.add_option("--out", a.out, "Directory of the results (default: ./<scene>.out)")->type_name("DIR");
   add_replace(verb, a.replace);
   verb.add_flag(
       "--resume", a.resume,
-      "Go on from the last checkpoint of the same scene and --set in the directory, or begin where there is none");
+      "Go on from the last checkpoint of the same scene and --set in the directory, or begin where there is none; "
+      "nothing is done where the run has ended, unless --replace is given");
+  CLI::Option* from =
+      verb.add_option("--from", a.from,
+                      "Start dynamics from a state of the run in this directory, by the names of nodes, bodies and "
+                      "beams; time goes on from there")
+          ->type_name("DIR");
+  verb.add_option("--time", a.time,
+                  "Time of that state [s], or load factor: the end, a picture of output.motion or a checkpoint "
+                  "(default: the last one there is)")
+      ->type_name("T")
+      ->needs(from);
   add_threads(verb, a.threads, "Threads");
   add_overrides(verb, a.overrides);
   add_memory_limit(verb, a.memory_limit);
@@ -148,9 +160,11 @@ void add_case_options(CLI::App& verb, CaseArguments& a) {
   verb.add_option("--stop-after", a.stop_after, "Stop the whole after so many seconds, so that --resume goes on")
       ->type_name("S")
       ->check(between(0.001, 1e9));
-  verb.add_option("--keep", a.keep,
-                  "Results of cases: all, in a folder each; few, folders of up to 200 cases, of more those of failed "
-                  "ones, and the others in a store that view reads; none (default: few)")
+  verb.add_option(
+          "--keep", a.keep,
+          "Results of cases: all, in a folder each; few, folders of up to 200 cases, of more those of failed "
+          "ones, and the others in a store that view reads; none: neither, and no checkpoints, so that --resume "
+          "begins a case anew that was cut (default: few)")
       ->check(CLI::IsMember({"all", "none", "few"}));
   verb.add_option("--keep-case", a.keep_cases,
                   "A case that has a folder whatever --keep says; may be given several times")

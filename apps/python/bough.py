@@ -203,11 +203,14 @@ def read_motion(directory):
     return Motion(pathlib.Path(directory) / "motion.bin")
 
 
-def run(scene, out, set=None, threads=None, check=True, replace=False):  # noqa: A002  named as options of the program
+def run(scene, out, set=None, threads=None, check=True, replace=False,  # noqa: A002  named as options of the program
+        start=None, start_time=None):
     """Runs a scene into the directory `out` and reads it. `set`: {"/pointer": value}. A run that fails is a BoughError
     unless check is False; input that is refused always is, and so is a directory with results of another scene unless
-    replace is True."""
+    replace is True. `start`: directory of a run from whose last state this one starts, or from that of `start_time`."""
     words = ["run", os.fspath(scene), "--out", os.fspath(out), "--quiet", *(["--replace"] if replace else [])]
+    words += [] if start is None else ["--from", os.fspath(start)]
+    words += [] if start_time is None else ["--time", repr(float(start_time))]
     status, text = _call(words + _settings(set) + ([] if threads is None else ["--threads", str(threads)]))
     if status == 2 or (check and status != 0):
         raise BoughError(text.strip(), status)

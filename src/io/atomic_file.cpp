@@ -128,6 +128,7 @@ void AtomicFile::write(std::string_view bytes) {
 void AtomicFile::flush() {
   if (descriptor_ < 0) throw std::logic_error("AtomicFile: written after commit");
   if (buffer_.empty()) return;
+  keeps_ = false;
   const int error = write_all(descriptor_, buffer_);
   if (error == 0) {
     flushed_ += buffer_.size();
@@ -168,7 +169,6 @@ void AtomicFile::checkpoint(records::Archive& archive) {
   if (digest_of_file(partial_path_) != digest_.text())
     throw std::runtime_error(partial_path_.string() + " is not as it was at the checkpoint");
   digest_anew_.clear();
-  keeps_ = false;
 }
 
 void AtomicFile::start_writing_out() {

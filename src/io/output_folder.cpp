@@ -187,7 +187,8 @@ std::vector<fs::path> OutputFolder::unfinished_in(const fs::path& folder, const 
   };
   look_at(staging_of(folder), FolderState::unfinished, "");
   look_at(final, FolderState::failed, "");
-  for (const fs::directory_entry& entry : fs::directory_iterator(final.parent_path()))
+  std::error_code none;  // of a folder whose parent does not exist yet
+  for (const fs::directory_entry& entry : fs::directory_iterator(final.parent_path(), none))
     if (entry.path().filename().string().starts_with(final.filename().string() + ".failed"))
       look_at(entry.path(), FolderState::failed, final.filename().string());
   return places;

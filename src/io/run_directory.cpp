@@ -8,6 +8,7 @@
 #include "bough/io/input_file.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/io/unfinished_run.hpp"
+#include "checkpoint_file.hpp"
 
 namespace bough::io {
 namespace {
@@ -20,11 +21,9 @@ constexpr bool has_vtk = true;
 constexpr bool has_vtk = false;  // the code below it is not compiled, since vtu_text is not available
 #endif
 
-const std::vector<std::string> all_names = {"history.csv",  "history.npy",  "columns.json",
-                                            "motion.bin",   "motion.pvd",   "motion/frame_*",
-                                            "summary.json", "checkpoint.*", "progress.json"};
-constexpr std::string_view checkpoint_format = "bough checkpoint 1";
-constexpr std::size_t most_checkpoint_bytes = std::size_t{1} << 36u;
+const std::vector<std::string> all_names = {"history.csv",  "history.npy",    "columns.json", "motion.bin",
+                                            "motion.pvd",   "motion/frame_*", "states.bin",   "summary.json",
+                                            "checkpoint.*", "progress.json"};
 
 std::string frame_name(std::size_t number) {
   std::string digits = std::to_string(number);
@@ -48,16 +47,39 @@ RunDirectory::RunDirectory(fs::path directory, std::string version, RunOrigin or
       replaces_(replaces),
       rule_(rule) {}
 
+void RunDirectory::find_checkpoints() {
+  const Owner owner{"run", origin_.scene_file, origin_.key, replaces_};
+  for (const fs::path& place : OutputFolder::unfinished_in(directory_, owner))
+    if (found_.empty()) found_ = checkpoints_in(place);
+}
+
+bool RunDirectory::has_all() {
+  find_checkpoints();
+  const bool can_go_on = !found_.empty();
+  told_.clear();  // `open` tells it
+  found_.clear();
+  const Owner owner{"run", origin_.scene_file, origin_.key, replaces_};
+  const std::optional<Manifest> manifest = read_manifest(directory_);
+  if (can_go_on || !manifest || manifest->state != FolderState::good || is_of_another(directory_, owner)) return false;
+  try {
+    const SummaryFile summary = read_unchanged(directory_, [&] {
+      return read_whole_summary(directory_, {"history.csv", "history.npy", "columns.json", "motion.bin", "states.bin"});
+    });
+    return summary.status == status_text(records::RunStatus::ok) && summary.scene_hash == origin_.scene_hash &&
+           summary.overrides == origin_.overrides && summary.start_hash == (origin_.from ? origin_.from->hash : "");
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
 void RunDirectory::open() {
   if (folder_) return;
   const Owner owner{"run", origin_.scene_file, origin_.key, replaces_};
-  if (rule_.resumes)
-    for (const fs::path& place : OutputFolder::unfinished_in(directory_, owner))
-      if (!from_) from_ = last_checkpoint_in(place);
-  folder_ =
-      std::make_unique<OutputFolder>(directory_, owner, all_names, origin_.inputs(), from_ ? from_->place : fs::path());
-  if (from_)
-    told_.push_back("going on from time " + rounded_text(from_->time, 6));
+  if (rule_.resumes) find_checkpoints();
+  folder_ = std::make_unique<OutputFolder>(directory_, owner, all_names, origin_.inputs(),
+                                           found_.empty() ? fs::path() : found_.back().place);
+  if (!found_.empty())
+    told_.push_back("going on from time " + rounded_text(found_.back().time, 6));
   else if (rule_.resumes)
     told_.push_back("there is no checkpoint to go on from: the run begins");
   if (!folder_->kept_of_killed().empty())
@@ -65,48 +87,36 @@ void RunDirectory::open() {
                     (rule_.resumes ? "" : ", and --resume goes on from its last checkpoint"));
 }
 
-/// A checkpoint belongs to a scene with all that was changed in it, or to a case, and to a program.
+/// A checkpoint belongs to a scene with all that was changed in it and the state from which it started, or to a case,
+/// and to a program.
 std::string RunDirectory::identity() const {
   std::string what = origin_.key.empty() ? origin_.scene_hash : origin_.key;
   for (const std::string& text : origin_.overrides) what += "\n" + text;
+  if (origin_.from) what += "\nfrom " + origin_.from->hash;
   return digest_of(what);
 }
 
-/// The later of both checkpoints of a folder that can be used.
-std::optional<RunDirectory::Checkpoint> RunDirectory::last_checkpoint_in(const fs::path& place) {
-  std::optional<Checkpoint> last;
+std::vector<RunDirectory::Checkpoint> RunDirectory::checkpoints_in(const fs::path& place) {
+  std::vector<Checkpoint> good;
   for (const char* name : {"checkpoint.1", "checkpoint.2"}) {
     if (!fs::exists(fs::symlink_status(place / name))) continue;
-    std::optional<Checkpoint> one = read_checkpoint(place / name);
-    if (one && (!last || one->number > last->number)) last = std::move(one);
+    if (std::optional<Checkpoint> one = read_checkpoint(place / name)) good.push_back(std::move(*one));
   }
-  return last;
+  if (good.size() == 2 && good[0].number > good[1].number) std::swap(good[0], good[1]);
+  return good;
 }
 
 std::optional<RunDirectory::Checkpoint> RunDirectory::read_checkpoint(const fs::path& file) {
-  const auto unusable = [&](const std::string& why) {
-    told_.push_back(file.string() + " cannot be used: " + why);
-    return std::nullopt;
-  };
-  std::string bytes;
-  try {
-    bytes = read_text(file, most_checkpoint_bytes);
-  } catch (const Unreadable& fault) {
-    return unusable(fault.why());
-  }
-  const std::size_t end = bytes.find('\n');
-  const std::optional<CheckpointHead> head =
-      end == std::string::npos ? std::nullopt : read_checkpoint_head(std::string_view(bytes).substr(0, end));
-  if (!head || !head->format.starts_with("bough checkpoint"))
-    return unusable("it is not a checkpoint, or was cut off, or its first line is damaged");
-  if (head->format != checkpoint_format)
-    return unusable("it has the format of another version, \"" + head->format + "\"");
-  if (head->program_hash != origin_.program_hash) return unusable("another program has written it");
-  if (head->identity != identity()) return unusable("it is of another scene, or of other values of --set");
-  Checkpoint checkpoint{file.parent_path(), head->number, head->time, bytes.substr(end + 1)};
-  if (checkpoint.bytes.size() != head->num_bytes) return unusable("it was cut off");
-  if (digest_of(checkpoint.bytes) != head->digest) return unusable("it is damaged");
-  return checkpoint;
+  CheckpointFile found = read_checkpoint_file(file);
+  if (found.fault.empty() && found.head.program_hash != origin_.program_hash)
+    found.fault = "another program has written it";
+  else if (found.fault.empty() && found.head.identity != identity())
+    found.fault = "it is of another scene, or of other values of --set or --from";
+  if (found.fault.empty())
+    return Checkpoint{file.parent_path(),       found.head.number,      found.head.time,
+                      file.filename().string(), std::move(found.state), std::move(found.files)};
+  told_.push_back(file.string() + " cannot be used: " + found.fault);
+  return std::nullopt;
 }
 
 void RunDirectory::note_progress(const records::Progress& progress) {
@@ -115,10 +125,10 @@ void RunDirectory::note_progress(const records::Progress& progress) {
   if (now - told_at_ < interval || !folder_) return;
   told_at_ = now;
   const std::chrono::duration<double> seconds = now - begun_at_;
-  write_file(
-      folder_->staging() / "progress.json",
-      progress_text({progress.time, progress.end_time, progress.step, seconds.count(), from_ ? from_->time : 0.0}),
-      Durability::later);
+  write_file(folder_->staging() / "progress.json",
+             progress_text({progress.time, progress.end_time, progress.step, seconds.count(),
+                            found_.empty() ? 0.0 : found_.back().time}),
+             Durability::later);
 }
 
 bool RunDirectory::is_checkpoint_due(double time, bool is_last) {
@@ -134,19 +144,9 @@ void RunDirectory::checkpoint(std::string_view state) {
   for (; synced_frames_ < frame_records_.size(); ++synced_frames_)
     sync_file(folder_->staging() / frame_records_[synced_frames_].name);
   take_files(archive, {});
-  const std::string bytes = archive.bytes() + std::string(state);
   ++num_checkpoints_;
-  const CheckpointHead head{std::string(checkpoint_format),
-                            origin_.program_hash,
-                            identity(),
-                            num_checkpoints_,
-                            time_,
-                            bytes.size(),
-                            digest_of(bytes)};
-  AtomicFile file(folder_->staging() / (num_checkpoints_ % 2 == 1 ? "checkpoint.1" : "checkpoint.2"));
-  file.write(head.text());
-  file.write(bytes);
-  file.commit();
+  write_checkpoint_file(folder_->staging() / (num_checkpoints_ % 2 == 1 ? "checkpoint.1" : "checkpoint.2"),
+                        {{}, origin_.program_hash, identity(), num_checkpoints_, time_, 0, {}}, state, archive.bytes());
   kept_at_ = std::chrono::steady_clock::now();
   kept_time_ = time_;
 }
@@ -157,27 +157,54 @@ void RunDirectory::take_files(records::Archive& archive, const records::HistoryH
   bool has_motion = motion_ != nullptr;
   archive(has_motion, frames_, frame_records_);
   if (archive.is_reading()) {
+    for (const FileRecord& frame : frame_records_)
+      if (digest_of_file(staging / frame.name) != frame.hash)
+        throw std::runtime_error((staging / frame.name).string() + " is not as it was at the checkpoint");
     history_ = std::make_unique<HistoryWriter>(staging / "history.csv", header, archive);
     twin_ = std::make_unique<NpyHistoryWriter>(staging / "history.npy", header);
+    states_ = std::make_unique<StateWriter>(staging / "states.bin");
     if (has_motion) motion_ = std::make_unique<MotionWriter>(staging / "motion.bin", archive);
   } else {
     archive(*history_);
     if (has_motion) archive(*motion_);
   }
-  archive(*twin_);
+  archive(*twin_, *states_);
+}
+
+/// The files stay as they are.
+void RunDirectory::forget_files() {
+  history_.reset();
+  twin_.reset();
+  states_.reset();
+  motion_.reset();
+  frames_.clear();
+  frame_records_.clear();
 }
 
 std::string RunDirectory::resume(const records::HistoryHeader& header) {
   open();
-  if (!from_) return {};
-  records::Archive archive(from_->bytes);
-  take_files(archive, header);
+  if (found_.empty()) return {};
+  for (;;) {
+    const Checkpoint& from = found_.back();
+    try {
+      records::Archive archive(from.files);
+      take_files(archive, header);
+      archive.require_end();
+      break;
+    } catch (const std::runtime_error& fault) {
+      forget_files();
+      if (found_.size() == 1) throw;
+      told_.push_back((from.place / from.name).string() + " cannot be used: " + fault.what());
+      found_.pop_back();
+      told_.push_back("going on from time " + rounded_text(found_.back().time, 6));
+    }
+  }
   fs::remove(folder_->staging() / "summary.json");  // of the part before; the run has not ended now
   columns_ = columns_text(header);
-  num_checkpoints_ = from_->number;
-  kept_time_ = from_->time;
+  num_checkpoints_ = found_.back().number;
+  kept_time_ = found_.back().time;
   synced_frames_ = frame_records_.size();
-  return std::string(archive.rest());
+  return std::move(found_.back().state);
 }
 
 /// Checkpoints stay with results that a run can go on from; others have no use for them.
@@ -199,6 +226,7 @@ void RunDirectory::begin(const records::HistoryHeader& header) {
   open();
   history_ = std::make_unique<HistoryWriter>(folder_->staging() / "history.csv", header);
   twin_ = std::make_unique<NpyHistoryWriter>(folder_->staging() / "history.npy", header);
+  states_ = std::make_unique<StateWriter>(folder_->staging() / "states.bin");
   columns_ = columns_text(header);
   write_file(folder_->staging() / "columns.json", columns_, Durability::later);  // for readers while the run goes on
 }
@@ -225,6 +253,8 @@ void RunDirectory::motion(const records::MotionFrame& frame) {
   }
   motion_->frame(frame);
 }
+
+void RunDirectory::state(const records::StoredState& state) { states_->state(state); }
 
 void RunDirectory::list(FileRecord record) {
   folder_->add(record);
@@ -260,6 +290,7 @@ std::exception_ptr RunDirectory::commit_files() {
     list({"columns.json", columns_.size(), digest_of(columns_)});
   });
   if (motion_) attempt("motion.bin", [&] { commit(*motion_); });
+  if (states_->has_begun()) attempt("states.bin", [&] { commit(*states_); });
   if constexpr (has_vtk) {
     if (motion_) {
       attempt("motion", [&] {

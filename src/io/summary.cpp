@@ -256,6 +256,14 @@ void write_origin(JsonText& json, const RunOrigin& origin, const std::vector<Fil
   json.end_array();
   json.member("commit", std::string_view(origin.commit));
   json.member("program_hash", std::string_view(origin.program_hash));
+  if (origin.from) {
+    json.key("from");
+    json.begin_object();
+    json.member("folder", std::string_view(origin.from->folder.string()));
+    json.member("time", origin.from->time);
+    json.member("hash", std::string_view(origin.from->hash));
+    json.end_object();
+  }
   json.end_object();
   json.key("files");
   json.begin_object();
@@ -322,8 +330,10 @@ std::string_view status_text(records::RunStatus status) {
 }
 
 std::vector<std::filesystem::path> RunOrigin::inputs() const {
-  if (scene_file.empty()) return {};
-  return {scene_file};
+  std::vector<std::filesystem::path> files;
+  if (!scene_file.empty()) files.push_back(scene_file);
+  if (from) files.push_back(from->file);
+  return files;
 }
 
 std::string summary_text(const records::Summary& summary, std::string_view version, const RunOrigin& origin,
@@ -405,9 +415,12 @@ SummaryFile read_summary(const std::filesystem::path& path) {
     for (const JsonValue& note : notes->items) summary.notes.push_back(note.text.str());
   if (const JsonValue* measures = json->find("measures"); measures != nullptr) read_measures(*measures, summary);
   if (const JsonValue* expected = json->find("expected"); expected != nullptr) read_expected(*expected, summary);
-  if (const JsonValue* origin = json->find("origin"); origin != nullptr)
+  if (const JsonValue* origin = json->find("origin"); origin != nullptr) {
     if (const JsonValue* set = origin->find("set"); set != nullptr)
       for (const JsonValue& item : set->items) summary.overrides.push_back(item.text.str());
+    summary.scene_hash = text_of(*origin, "scene_hash");
+    if (const JsonValue* from = origin->find("from"); from != nullptr) summary.start_hash = text_of(*from, "hash");
+  }
   if (const JsonValue* files = json->find("files"); files != nullptr)
     for (std::size_t k = 0; k < files->items.size(); ++k)
       summary.files.push_back({files->items.key(k), 0, files->items[k].text});
@@ -454,6 +467,8 @@ SummaryFile read_whole_summary(const std::filesystem::path& directory, const std
   const std::string run_again = "; run the scene again, into a new folder";
   const auto is_there = [&](const std::string& name) { return std::filesystem::exists(directory / name); };
   if (!std::filesystem::exists(directory)) throw std::runtime_error("there is no folder " + directory.string());
+  if (!std::filesystem::is_directory(directory))
+    throw std::runtime_error(directory.string() + " is a file, not a folder of results");
   const std::optional<Manifest> manifest = read_manifest(directory);
   if (!is_there("summary.json") && manifest && manifest->made_by != "run")
     throw std::runtime_error(

@@ -52,7 +52,8 @@ CarriedError::CarriedError(step::System& system, const scene::Solver& solver, co
     : system_(system),
       local_(system, options, duration),
       transport_(system.plan(), solver, schedule::make_serial_walker(), start),
-      duration_(duration) {
+      duration_(duration),
+      middle_(0.5 * duration) {
   const Costs c = costs_of(system);
   left_open_ = tolerance_share * options.tolerance;
   budget_ = always / c.carried;
@@ -115,7 +116,7 @@ std::optional<step::Trouble> CarriedError::carry(const step::State& state) {
   if (auto t = transport_.carry(state)) return t;
   budget_ -= 0.1 * transport_.num_solutions();  // one is about a tenth of such a step
   largest_ = std::max(largest_, transport_.size());
-  if (state.time <= 0.5 * duration_) largest_early_ = largest_;
+  if (state.time <= middle_) largest_early_ = largest_;
   return std::nullopt;
 }
 

@@ -31,11 +31,16 @@ class CarriedError {
   static constexpr long looked_at = 3;
   /// To be called once the error was carried. turn: of the motion in a step [rad].
   void choose_stride(const step::State& state, double turn, double steps_left);
+  /// To be called where the run does not start at time 0, with the times of its start and its end.
+  void span(double begin, double end) {
+    duration_ = end - begin;
+    middle_ = 0.5 * (begin + end);
+  }
   /// The far side of a jump.
   void restart(double time);
   void checkpoint(records::Archive& archive) {
-    archive(local_, transport_, budget_, stride_, since_, has_first_, largest_early_, largest_, reaction_, too_much_,
-            all_, unresolved_, added_, detuned_);
+    archive(local_, transport_, budget_, stride_, since_, has_first_, duration_, middle_, largest_early_, largest_,
+            reaction_, too_much_, all_, unresolved_, added_, detuned_);
   }
 
   const step::ErrorTransport& transport() const { return transport_; }
@@ -65,8 +70,8 @@ class CarriedError {
   double left_open_;  ///< of accelerations, by the tolerance of equations [-]
   double cost_;       ///< of one, in steps of the run
   long stride_ = 1, since_ = 0;
-  bool has_first_ = false;  ///< the error of the step before was measured
-  double duration_;
+  bool has_first_ = false;                      ///< the error of the step before was measured
+  double duration_, middle_;                    ///< of the run, and the time at which half of it has passed [s]
   double largest_early_ = 0.0, largest_ = 0.0;  ///< errors in the first half of the run, and in all of it
   double reaction_ = 0.0;                       ///< fading mean of the largest multiplier
   double too_much_ = 0.0;

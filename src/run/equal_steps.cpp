@@ -21,6 +21,7 @@ EqualSteps::EqualSteps(const Parts& parts) : TimeSteps(parts) {
 
 bool EqualSteps::begin_stretch() {
   looking_ = false;  // errors are not compared across a start
+  looked_at_ = std::max(looked_at_, start_);
   const double wanted = scene_.analysis.step_size;
   steps_ = std::max(1L, static_cast<long>(std::ceil((end_ - begin_) / wanted - 1e-9)));
   size_ = (end_ - begin_) / static_cast<double>(steps_);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "bough/plan/plan.hpp"
 #include "bough/scene/analysis_kinds.hpp"
 #include "bough/scene/components.hpp"
+#include "bough/scene/problems.hpp"
 
 namespace bough::run {
 
@@ -24,6 +26,22 @@ constexpr double most_planned = 2e5;
 
 double part_of(plan::Motions motions) {
   return motions == plan::Motions::spatial ? 1.0 : motions == plan::Motions::line ? line_part : planar_part;
+}
+
+double num_parts(const Estimate& e) { return e.nodes + e.elements + e.joints; }
+
+/// The motions that a scene can make, by its plan; none: that would take too long. Into how many elements beams are
+/// divided does not matter for that, so that the plan of a large scene is made with two each, unless something else of
+/// the scene names the nodes between them.
+std::optional<plan::Motions> motions_of(const scene::Scene& scene, const Estimate& e) {
+  constexpr int enough = 2;
+  if (num_parts(e) <= most_planned) return plan::make_plan(scene).unknowns.motions;
+  scene::Scene coarse = scene;
+  for (scene::Beam& b : coarse.beams) b.elements = std::min(b.elements, enough);
+  if (num_parts(estimate_run(coarse)) > most_planned) return std::nullopt;
+  const auto problems = scene::problems_in(coarse);
+  if (!std::all_of(problems.begin(), problems.end(), [](const auto& p) { return p.is_warning; })) return std::nullopt;
+  return plan::make_plan(coarse).unknowns.motions;
 }
 
 std::string rounded(double x) {
@@ -71,11 +89,11 @@ std::string refusal(const scene::Scene& scene, double limit) {
   double bytes = e.memory_bytes;
   if (bytes <= limit) return "";
   std::string taken_as = "";
-  if (e.nodes + e.elements + e.joints > most_planned) {
-    taken_as = ", of a motion in space, for which so large a scene is taken";
-  } else if (line_part * bytes <= limit) {
-    bytes *= part_of(plan::make_plan(scene).unknowns.motions);
+  if (line_part * bytes <= limit) {
+    const std::optional<plan::Motions> motions = motions_of(scene, e);
+    if (motions) bytes *= part_of(*motions);
     if (bytes <= limit) return "";
+    if (!motions) taken_as = ", of a motion in space, for which so large a scene is taken";
   }
   return "a run would take about " + megabytes(bytes) + " of memory" + taken_as + ", and " + megabytes(limit) +
          " are there: " + rounded(e.nodes) + " nodes, " + rounded(e.elements) + " elements, " + rounded(e.unknowns) +

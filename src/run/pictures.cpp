@@ -64,11 +64,14 @@ bool Pictures::is_due(long row, double time, double turn, bool is_last) const {
   return row == 0 || is_passed(time, next_) || (turn >= turn_between && has_room(time));
 }
 
-std::optional<std::string> Pictures::set_size(const records::MotionFrame& frame, const records::MotionParts& parts) {
+std::optional<std::string> Pictures::set_size(const records::MotionFrame& frame, const records::MotionParts& parts,
+                                              std::size_t num_states) {
   is_first_ = false;
   if (stride_ > 0) return std::nullopt;
   constexpr double most = 200e6, most_motion = 120e6;
-  const PictureBytes bytes = bytes_of(frame, parts);
+  constexpr double bytes_per_state = 160.0;  // 16 numbers, and a name of some letters with its length
+  PictureBytes bytes = bytes_of(frame, parts);
+  bytes.vtu += bytes_per_state * static_cast<double>(num_states);
   most_intervals_ = static_cast<int>(std::clamp(most_motion / bytes.motion - 1.0, 2.0, 100.0));
   constexpr double most_pictures = 3000.0;
   most_by_turn_ = static_cast<int>(std::clamp(most_motion / bytes.motion, 0.0, most_pictures)) - most_intervals_;

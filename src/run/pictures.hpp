@@ -10,8 +10,9 @@
 namespace bough::run {
 
 /// Selects the pictures of a motion. If the scene gives a stride, it is followed. Otherwise a run has 101 pictures at
-/// most, one per interval of equal time (or load), and fewer if motion.bin would exceed 120 MB or all files 200 MB; and
-/// further ones wherever a part has turned by `turn_between` since the last one, as long as motion.bin has room.
+/// most, one per interval of equal time (or load), and fewer if motion.bin would exceed 120 MB or all files, states
+/// included, 200 MB; and further ones wherever a part has turned by `turn_between` since the last one, as long as
+/// motion.bin has room.
 class Pictures {
  public:
   /// is_wanted: whether there are pictures at all.
@@ -23,9 +24,9 @@ class Pictures {
   /// Whether `set_size` has to be called before the next picture.
   bool is_first() const { return is_first_; }
   /// Estimates the size of pictures from the first one. If fewer are kept because of their size, returns a note with
-  /// their number.
+  /// their number. num_states: nodes whose states are kept with every picture for other programs.
   [[nodiscard]] std::optional<std::string> set_size(const records::MotionFrame& frame,
-                                                    const records::MotionParts& parts);
+                                                    const records::MotionParts& parts, std::size_t num_states = 0);
   /// Counts the picture of this time. Returns whether a VTU file for other programs is written of it, too.
   bool take(double time, bool is_last);
   void checkpoint(records::Archive& archive) {

@@ -57,6 +57,7 @@ Recording::Recording(const scene::Scene& scene, const SimulateOptions& options, 
     : scene_(scene),
       system_(system),
       recorder_(recorder),
+      start_(options.from ? start_time(*options.from) : 0.0),
       account_(system),
       conservation_(system, follows_energy(scene, system.plan())),
       pictures_(scene, system.plan(), options.want_motion || scene.output.motion),
@@ -117,7 +118,8 @@ void Recording::draw(const step::State& state, bool is_last) {
   gate_.look_at(frame);
   if (pictures_.is_first()) {
     const records::MotionParts parts = results::make_parts(scene_, system_);
-    if (const auto fewer = pictures_.set_size(frame, parts)) account_.note(*fewer);
+    if (const auto fewer = pictures_.set_size(frame, parts, recorder_.keeps_states() ? system_.plan().nodes.size() : 0))
+      account_.note(*fewer);
     recorder_.parts(parts);
   }
   frame.for_others = pictures_.take(state.time, is_last);
@@ -132,11 +134,23 @@ void Recording::draw(const step::State& state, bool is_last) {
   }
   turns_.begin(system_, state);
   recorder_.motion(frame);
+  if (frame.for_others) hand_out(state);
+}
+
+records::StoredState Recording::named(const step::State& state) {
+  if (!parts_) parts_.emplace(scene_, system_.plan());
+  return parts_->store(system_, state);
+}
+
+void Recording::hand_out(const step::State& state) {
+  if (!recorder_.keeps_states() || rows_ == 0 || handed_out_ == state.time) return;
+  handed_out_ = state.time;
+  recorder_.state(named(state));
 }
 
 void Recording::checkpoint(records::Archive& archive) {
   archive(account_, conservation_, gate_, pictures_, turns_, is_turn_told_, figures_, measures_, springs_, far_,
-          error_watch_, values_, row_, rows_);
+          error_watch_, handed_out_, values_, row_, rows_);
 }
 
 void Recording::come_back() {
@@ -156,6 +170,8 @@ const std::vector<double>& Recording::eval_sensors(const step::State& state) {
 void Recording::take_figures() {
   records::Summary& s = summary();
   s.expected = figures_.results(s);
+  for (std::size_t k = 0; k < s.expected.size(); ++k)
+    if (!is_time_passed((*asked_)[k].time)) s.expected[k].reached = s.expected[k].holds = false;
   const std::vector<records::MeasureResult> of_whole_run = measures_.results();
   s.measures.clear();
   std::vector<records::ExpectedResult> of_measures;
@@ -173,7 +189,7 @@ void Recording::take_figures() {
     } else {
       measured = of_whole_run[next_measure++];
       how.taken = "from the ends of all accepted steps";
-      how.reached = is_time_reached(m);
+      how.reached = is_time_passed(m.time);
     }
     if (s.status != RunStatus::ok) measured.value.reset();  // an incomplete run has no measures
     if (m.expected) of_measures.push_back(held_against(*m.expected, measured, std::move(how)));
@@ -183,9 +199,10 @@ void Recording::take_figures() {
   s.expected.insert(s.expected.end(), of_measures.begin(), of_measures.end());
 }
 
-/// Whether the run reaches the time of a measure, if it has one; the end time may have been reduced.
-bool Recording::is_time_reached(const scene::Measure& m) const {
-  return !m.time || !system_.plan().is_dynamic || *m.time <= scene_.analysis.end_time * (1.0 + 1e-12);
+bool Recording::is_time_passed(const std::optional<double>& time) const {
+  constexpr double round_off = 1e-12;
+  return !time || !system_.plan().is_dynamic ||
+         (*time >= start_ * (1.0 - round_off) && *time <= scene_.analysis.end_time * (1.0 + round_off));
 }
 
 }  // namespace bough::run

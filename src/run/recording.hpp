@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "account.hpp"
+#include "bough/results/named_parts.hpp"
 #include "bough/results/spring_watch.hpp"
 #include "bough/run/measures.hpp"
 #include "bough/run/simulate.hpp"
@@ -42,6 +43,11 @@ class Recording {
   /// To be called at a breakpoint or the end of the run: figures are not interpolated across it.
   void end_stretch(const step::State& state) { figures_.end_stretch(system_, state, conservation_.energies()); }
 
+  /// The state by the names of its parts.
+  records::StoredState named(const step::State& state);
+  /// Hands it to the recorder, unless that has no use for it or has it already, or the run has not started.
+  void hand_out(const step::State& state);
+
   void checkpoint(records::Archive& archive);
   /// To be called once it was read, before further pictures are passed to the recorder.
   void come_back();
@@ -58,11 +64,13 @@ class Recording {
  private:
   bool is_due(long row, bool is_last) const;
   void draw(const step::State& state, bool is_last);
-  bool is_time_reached(const scene::Measure& m) const;
+  /// Whether the run passes the time of a figure, if it has one: it may start later, and its end may have been reduced.
+  bool is_time_passed(const std::optional<double>& time) const;
 
   const scene::Scene& scene_;
   step::System& system_;
   records::Recorder& recorder_;
+  double start_;  ///< time at which the run starts [s]
   Account account_;
   Conservation conservation_;
   FiniteGate gate_;
@@ -76,6 +84,8 @@ class Recording {
   FarWatch far_;
   std::optional<results::MotionSensors> motion_sensors_;  ///< where all sensors show motion, of a reduced model
   std::optional<ErrorWatch> error_watch_;
+  std::optional<results::NamedParts> parts_;  ///< once they were asked for
+  std::optional<double> handed_out_;          ///< time of the last state that the recorder has got
   std::vector<double> values_;
   records::HistoryRow row_;  ///< last recorded row
   long rows_ = 0;

@@ -109,7 +109,9 @@ struct Simulation::Impl {
 
   /// All that steps change, but what was recorded. The analysis makes its integrator by the options.
   void checkpoint(records::Archive& archive) {
-    archive(options, state, *recording, *analysis);
+    records::StoredState named;  // for other scenes, which the rest tells nothing
+    if (!archive.is_reading()) named = recording->named(state);
+    archive(named, options, state, *recording, *analysis);
     system.checkpoint(archive, [this](long matrices) { return analysis->write_matrices(matrices); });
     if (!archive.is_reading()) return;
     if (const auto trouble = system.set_time(state.time)) throw std::logic_error(trouble->text);
@@ -265,6 +267,8 @@ const records::Summary& Simulation::finish() {
   if (p.stage == Impl::Stage::finished) return summary;
   if (p.stage == Impl::Stage::made) p.recorder.begin(summary.header);
   if (!has_ended()) (void)p.recording->account().interrupt("stopped at time " + std::to_string(p.state.time));
+  if (summary.status != RunStatus::ok) (void)p.system.set_time(p.state.time);  // a failed step may have left another
+  p.recording->hand_out(p.state);
   p.stage = Impl::Stage::finished;
   judge({p.scene, p.options, p.system, p.state, *p.recording, *p.analysis});
   if (p.asked.after_run) p.asked.after_run(p.system, p.state);

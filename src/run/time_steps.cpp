@@ -23,6 +23,20 @@ bool shows_reactions(const plan::Plan& plan) {
                      [](const plan::SensorPlan& s) { return s.sensor.kind == scene::SensorKind::joint_reaction; });
 }
 
+/// Whether a state has a node, a body or a beam.
+bool has(const records::StoredState& state, const std::string& name) {
+  return std::any_of(state.parts.begin(), state.parts.end(), [&](const auto& p) { return p.name == name; }) ||
+         std::any_of(state.beams.begin(), state.beams.end(), [&](const auto& b) { return b.name == name; });
+}
+
+/// "'a', 'b' and 3 more parts"
+std::string names_of(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) text += (i > 0 ? ", '" : "'") + names[i] + "'";
+  return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more parts" : text;
+}
+
 }  // namespace
 
 TimeSteps::TimeSteps(const Parts& parts)
@@ -45,8 +59,27 @@ TimeSteps::TimeSteps(const Parts& parts)
 }
 
 bool TimeSteps::begin() {
+  if (asked_.from && !begin_from(*asked_.from)) return false;
   if (scene_.analysis.start == scene::StartKind::equilibrium && !begin_in_equilibrium()) return false;
   return begin_next_stretch();
+}
+
+/// Time goes on from that of the state, since laws, drives and frames are functions of it.
+bool TimeSteps::begin_from(const records::StoredState& from) {
+  start_ = begin_ = end_ = start_time(from);
+  state_.time = start_;
+  if (const auto trouble = system_.set_time(start_)) return fail(trouble->text);
+  const results::NamedParts::Taken taken = results::NamedParts(scene_, plan_).take(from, system_, state_);
+  if (!taken.refusal.empty()) return fail("the scene cannot start from this state: " + taken.refusal);
+  if (carried_) carried_->span(start_, scene_.analysis.end_time);
+  note("the run starts from the state of another one at " +
+       std::string(from.runs_over_load ? "load factor " : "time ") + io::rounded_text(from.time, 6) +
+       ", with its places and velocities");
+  if (!taken.as_scene.empty())
+    note("the state does not have " + names_of(taken.as_scene) + ": they start as the scene says");
+  if (!taken.left.empty()) note("the scene does not have " + names_of(taken.left) + " of the state");
+  asked_nodes_ = step::nodes_in_space(plan_, state_);
+  return true;
 }
 
 bool TimeSteps::begin_in_equilibrium() {
@@ -73,7 +106,7 @@ bool TimeSteps::begin_in_equilibrium() {
          "forces");
   else
     note_unstable_start();
-  asked_ = step::nodes_in_space(plan_, state_);
+  asked_nodes_ = step::nodes_in_space(plan_, state_);
   return true;
 }
 
@@ -130,9 +163,9 @@ void TimeSteps::stop() {
 void TimeSteps::checkpoint(records::Archive& archive) {
   Analysis::checkpoint(archive);
   if (archive.is_reading()) integrator_ = step::make_integrator(system_, scene_.solver, options_);
-  archive(begin_, end_, local_error_, carried_, laws_, vibrations_, *integrator_, breaks_, hidden_looks_, hidden_known_,
-          hidden_unstable_, starts_unstable_, was_unstable_, ends_unstable_, hidden_mode_, is_begun_, is_followed_,
-          has_jump_, reactions_, values_before_, values_now_, values_displaced_, seen_);
+  archive(start_, begin_, end_, local_error_, carried_, laws_, vibrations_, *integrator_, breaks_, hidden_looks_,
+          hidden_known_, hidden_unstable_, starts_unstable_, was_unstable_, ends_unstable_, hidden_mode_, is_begun_,
+          is_followed_, has_jump_, reactions_, values_before_, values_now_, values_displaced_, seen_);
 }
 
 bool TimeSteps::start_integrator(double step_size) {
@@ -143,9 +176,18 @@ bool TimeSteps::start_integrator(double step_size) {
   const step::StartReport consistent = step::make_consistent(system_, state_, is_first(), step_size);
   if (!consistent.ok) return fail(consistent.cause);
   account().watch_dependent_rows(state_.time);
+  constexpr double left_open = 1e-4;  // above what integrators leave open in a run
+  if (is_first() && asked_.from && consistent.open_joint >= 0 && consistent.gap > left_open)
+    return fail("the scene cannot start from this state: '" +
+                plan_.joints[static_cast<std::size_t>(consistent.open_joint)].name + "' is open there by " +
+                io::rounded_text(consistent.gap, 3) +
+                " of the size of the parts that meet in it (or rad); leave it out, or drive it to where the state has "
+                "it");
   if (is_first() && consistent.position_correction > 1e-9) note_moved_start(consistent);
   if (is_first()) {
-    summary().changed_velocities = changed_velocities(plan_, state_, asked_);
+    summary().changed_velocities = changed_velocities(plan_, state_, asked_nodes_);
+    if (asked_.from)
+      std::erase_if(summary().changed_velocities, [&](const auto& changed) { return has(*asked_.from, changed.of); });
     if (!summary().changed_velocities.empty()) note(describe(summary().changed_velocities));
   }
   if (consistent.velocity_change > 1e-9) {

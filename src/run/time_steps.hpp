@@ -66,6 +66,7 @@ class TimeSteps : public Analysis {
   /// Carries the error of the motion on by the step just taken. local: its local error, if it was measured.
   bool carry_error(const step::LocalError* local);
 
+  double start_ = 0.0;                           ///< time at which the run starts [s]
   double begin_ = 0.0, end_ = 0.0;               ///< times of the present stretch [s]
   std::optional<step::LocalError> local_error_;  ///< of generalized-alpha, if checks or step control need it
   std::optional<CarriedError> carried_;          ///< if checks are made and it can be paid
@@ -76,13 +77,14 @@ class TimeSteps : public Analysis {
 
  private:
   bool begin_in_equilibrium();
+  bool begin_from(const records::StoredState& from);
   void note_unstable_start();
   bool has_hidden() const;
   void look_at_hidden();
   bool begin_next_stretch();
   /// Begins the rest of the present stretch anew.
   bool begin_rest_of_stretch();
-  bool is_first() const { return begin_ == 0.0 && !has_jump_; }
+  bool is_first() const { return begin_ == start_ && !has_jump_; }
   void choose_bdf_order(double step_size);
   void note_moved_start(const step::StartReport& consistent);
 
@@ -97,7 +99,7 @@ class TimeSteps : public Analysis {
   step::State tried_;                       ///< start of the first attempt of a failed step
   std::optional<ReactionWatch> reactions_;  ///< if checks are made and sensors show reactions
   std::vector<elements::NodeMotion>
-      asked_;  ///< nodes with their velocities, of a start that was moved to an equilibrium
+      asked_nodes_;  ///< nodes with their velocities, of a start that is not the one of the scene
   std::vector<double> values_before_, values_now_, values_displaced_;  ///< of motion sensors when an error is measured
 };
 

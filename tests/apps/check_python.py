@@ -85,6 +85,8 @@ def main():
 
     # Long histories have a twin for NumPy with the same bits; one that a crash left tells its rows by its size.
     assert not (folder / "out/history.npy").exists()
+    rest = bough.run(scene, folder / "rest", set={"/analysis/end_time": 0.2}, start=folder / "out", start_time=0.1)
+    assert abs(rest.time[0] - 0.1) < 1e-12 and rest.time[-1] == 0.2, "it does not start from the state of another run"
     long = bough.run(scene, folder / "long", set={"/analysis/step_size": 1e-5, "/analysis/end_time": 0.11})
     assert len(long) == 11001 and isinstance(long._table, numpy.memmap)
     loaded = numpy.load(folder / "long/history.npy")

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "bough/io/run_directory.hpp"
+#include "bough/io/stored_states.hpp"
 #include "bough/io/unfinished_run.hpp"
 #include "write_samples.hpp"
 
@@ -22,6 +23,7 @@ void record(RunDirectory& run, int begin, int end) {
   for (int k = begin; k < end; ++k) {
     run.row({0.1 * k, 0.1, 3, {1.0 / (k + 1), -k / 3.0}});
     if (k % 3 == 0) run.motion(sample_frame(0.1 * k));
+    if (k % 3 == 0) run.state({.time = 0.1 * k, .parts = {{.name = "tip", .position = {1.0 / (k + 1), 0.0, 0.0}}}});
     (void)run.is_checkpoint_due(0.1 * k, false);
   }
 }
@@ -96,7 +98,7 @@ TEST_F(Checkpoints, that_cannot_be_used_are_refused_by_name_and_the_other_one_is
                {"cut off", [](std::string& t) { t.clear(); }},
                {"damaged", [](std::string& t) { t.back() = '9'; }},
                {"another program", [](std::string& t) { t.replace(t.find("program"), 7, "another"); }},
-               {"another version", [](std::string& t) { t.replace(t.find("checkpoint 1"), 12, "checkpoint 0"); }},
+               {"another version", [](std::string& t) { t.replace(t.find("checkpoint 2"), 12, "checkpoint 0"); }},
                {"not a checkpoint", [](std::string& t) { t = "a text\n" + t; }}};
   for (const auto& c : cases) {
     fs::remove_all(place);
@@ -120,6 +122,72 @@ TEST_F(Checkpoints, do_not_fit_files_that_were_changed_since) {
   RunDirectory run(place, "1", origin, false, {1e9, 0.0, true});
   run.open();
   EXPECT_THROW((void)run.resume(header), std::runtime_error);
+}
+
+TEST_F(Checkpoints, whose_files_were_changed_since_are_left_out_for_the_other_one) {
+  const auto change_end = [](std::string& t) { t[t.size() - 2] = t[t.size() - 2] == '1' ? '2' : '1'; };
+  for (const char* name : {"history.csv.partial", "motion.bin.partial", "states.bin.partial"}) {
+    SCOPED_TRACE(name);
+    fs::remove_all(place);
+    be_killed();
+    change(name, change_end);
+    expect_to_go_on_from("after 5", 5, "checkpoint.2 cannot be used: ");
+  }
+  if (!fs::exists(whole / "motion/frame_000002.vtu")) return;  // a build without VTK
+  for (const bool is_missing : {false, true}) {
+    fs::remove_all(place);
+    be_killed();
+    if (is_missing)
+      fs::remove(staging / "motion/frame_000002.vtu");
+    else
+      change("motion/frame_000002.vtu", change_end);
+    expect_to_go_on_from("after 5", 5, "frame_000002.vtu");
+  }
+}
+
+TEST_F(Checkpoints, of_a_run_that_has_ended_are_gone_and_it_is_known_to_have_ended) {
+  const CheckpointRule resumes{1e9, 0.0, true};
+  EXPECT_TRUE(RunDirectory(whole, "1", origin, false, resumes).has_all());
+  EXPECT_FALSE(RunDirectory(place, "1", origin, false, resumes).has_all()) << "there is nothing";
+  RunOrigin other = origin;
+  other.overrides = {"/a=2"};
+  EXPECT_FALSE(RunDirectory(whole, "1", other, false, resumes).has_all()) << "another value of --set";
+  other = origin;
+  other.from = StartOrigin{"out", "out/states.bin", 1.0, "4567"};
+  EXPECT_FALSE(RunDirectory(whole, "1", other, false, resumes).has_all()) << "another start";
+  std::ofstream(whole / "history.csv", std::ios::app) << "1";
+  EXPECT_FALSE(RunDirectory(whole, "1", origin, false, resumes).has_all()) << "a file is not as it was";
+}
+
+TEST_F(Checkpoints, are_found_by_time_as_states_are) {
+  const auto state_at = [](double time) {
+    records::Archive archive;
+    records::StoredState state{.time = time, .parts = {{.name = "tip"}}};
+    archive(state);
+    return archive.bytes() + "the rest";
+  };
+  RunDirectory run(place, "1", origin, false, {1e9});
+  run.begin(header);
+  run.parts({});
+  record(run, 0, 5);
+  run.checkpoint(state_at(0.4));
+  record(run, 5, 6);
+  std::vector<std::string> skipped;
+  EXPECT_EQ(find_state(place, 0.4, skipped).file.filename(), "checkpoint.1");
+  EXPECT_EQ(find_state(place, 0.3, skipped).state.parts.at(0).position[0], 0.25);
+  EXPECT_EQ(find_state(place, std::nullopt, skipped).state.time, 0.4) << "the last one";
+  EXPECT_TRUE(skipped.empty());
+  try {
+    (void)find_state(place, 0.35, skipped);
+    FAIL() << "there is none";
+  } catch (const NoSuchState& told) {
+    EXPECT_NE(std::string(told.what()).find("there are 0, 0.3"), std::string::npos) << told.what();
+  }
+  run.end(sample_summary());
+  change("../out/states.bin", [](std::string& t) { t.back() = static_cast<char>(t.back() ^ 1); });
+  EXPECT_EQ(find_state(place, std::nullopt, skipped).state.time, 0.0) << "the last one that is whole";
+  ASSERT_EQ(skipped.size(), 1u);
+  EXPECT_NE(skipped[0].find("is damaged"), std::string::npos) << skipped[0];
 }
 
 TEST_F(Checkpoints, stay_with_a_run_that_was_stopped_and_go_with_it_where_it_goes_on) {

@@ -94,8 +94,9 @@ TEST(Outlook, has_usual_counts_where_the_run_fails) {
   EXPECT_EQ(outlook.effort.step_seconds(), outlook.effort.model_seconds);
 }
 
-/// A plan is made to learn how a scene moves only where that takes little itself.
-TEST(Refusal, of_large_scenes_makes_no_plan) {
+/// A plan is made to learn how a scene moves only where that takes little itself: of a large one with few elements a
+/// beam, unless something names the nodes between them.
+TEST(Refusal, of_large_scenes_makes_no_large_plan) {
   scene::Scene s = test::make_chain(6);
   const double small = estimate_run(s).memory_bytes;
   EXPECT_EQ(refusal(s, 2.0 * small), "");
@@ -103,6 +104,11 @@ TEST(Refusal, of_large_scenes_makes_no_plan) {
   s.beams[0].elements = 1'000'000;
   const double large = estimate_run(s).memory_bytes;
   EXPECT_EQ(refusal(s, 2.0 * large), "");
+  EXPECT_EQ(refusal(s, 0.9 * large), "") << "moves in a plane";
+  EXPECT_NE(refusal(s, 0.5 * large).find("a run would take about"), std::string::npos);
+  s.point_loads.emplace_back();
+  s.point_loads.back().name = "inside";
+  s.point_loads.back().at.to = s.beams[0].name + ".500000";
   const std::string why = refusal(s, 0.9 * large);
   EXPECT_NE(why.find("taken, and"), std::string::npos) << why;
 }

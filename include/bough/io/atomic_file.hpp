@@ -78,7 +78,7 @@ class AtomicFile {
   Digest digest_;
   std::string digest_anew_;  ///< after the front was replaced
   int descriptor_ = -1;
-  bool keeps_ = false;  ///< reopened, and not yet known to be as it was: it is not removed
+  bool keeps_ = false;  ///< reopened, and nothing was written since: it is not removed
 };
 
 /// Writes a whole text in one go through an `AtomicFile`.

@@ -5,6 +5,7 @@
 ///   columns.json   unit, quantity and part of each of its columns
 ///   motion.pvd, motion/frame_000000.vtu ..., motion.bin   where motion is recorded
 ///                  (a build without BOUGH_WITH_VTK writes motion.bin only)
+///   states.bin     states from which other scenes can start (stored_states.hpp)
 ///   summary.json   status, cost and checks of the run, its inputs, the hash of every file
 ///   manifest.json  the files in the directory that bough wrote (manifest.hpp)
 /// All of them appear under the directory's name together, at the end (output_folder.hpp).
@@ -19,6 +20,7 @@
 #include "bough/io/motion_frames.hpp"
 #include "bough/io/npy_history.hpp"
 #include "bough/io/output_folder.hpp"
+#include "bough/io/stored_states.hpp"
 #include "bough/io/summary.hpp"
 #include "bough/io/write_vtu.hpp"
 #include "bough/records/run.hpp"
@@ -43,16 +45,22 @@ class RunDirectory final : public records::Recorder {
   /// was not called before.
   void open();
 
+  /// Whether the directory has the good results of this very run, whole, and nothing that it could go on from.
+  bool has_all();
+
   void begin(const records::HistoryHeader& header) override;
   void row(const records::HistoryRow& row) override;
   void motion(const records::MotionFrame& frame) override;
   void parts(const records::MotionParts& parts) override { parts_ = parts; }
+  bool keeps_states() const override { return true; }
+  void state(const records::StoredState& state) override;
 
   /// Tells readers how far the run has come (unfinished_run.hpp), every two seconds at most.
   void note_progress(const records::Progress& progress);
 
   /// checkpoint.1 and checkpoint.2, written in turn: a line of text, then the positions in all files and the state of
-  /// the run. The files are on the disk before a checkpoint is, and it gets its name when it is.
+  /// the run. The files are on the disk before a checkpoint is, and it gets its name when it is. Of the two the later
+  /// one is used whose files are as they were.
   bool keeps_checkpoints() const override { return rule_.wall_clock > 0.0; }
   bool is_checkpoint_due(double time, bool is_last) override;
   void checkpoint(std::string_view state) override;
@@ -97,11 +105,14 @@ class RunDirectory final : public records::Recorder {
     std::filesystem::path place;  ///< folder
     long number = 0;
     double time = 0.0;
-    std::string bytes;
+    std::string name, state, files;
   };
-  std::optional<Checkpoint> last_checkpoint_in(const std::filesystem::path& place);
+  void find_checkpoints();
+  /// The good ones of a folder, the later one last.
+  std::vector<Checkpoint> checkpoints_in(const std::filesystem::path& place);
   std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file);
   void take_files(records::Archive& archive, const records::HistoryHeader& header);
+  void forget_files();
   std::string identity() const;
   void settle_checkpoints(records::RunStatus status);
   /// Gives the files their names; returns the first failure.
@@ -116,11 +127,12 @@ class RunDirectory final : public records::Recorder {
   std::unique_ptr<HistoryWriter> history_;
   std::unique_ptr<NpyHistoryWriter> twin_;
   std::unique_ptr<MotionWriter> motion_;
+  std::unique_ptr<StateWriter> states_;
   records::MotionParts parts_;
   std::string columns_;  ///< of columns.json
   bool has_ended_ = false, was_cut_off_ = false, can_go_on_ = false;
   CheckpointRule rule_;
-  std::optional<Checkpoint> from_;
+  std::vector<Checkpoint> found_;  ///< to go on from: the last one, and where its files are not as they were, the other
   std::chrono::steady_clock::time_point kept_at_ = std::chrono::steady_clock::now();
   double kept_time_ = 0.0, time_ = 0.0;  ///< times of the last checkpoint and of the last step
   long num_checkpoints_ = 0;

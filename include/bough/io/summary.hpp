@@ -2,6 +2,7 @@
 /// `summary.json`: how a run ended, its cost and its checks. It is written last: a directory with a summary is
 /// complete.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,13 @@
 
 namespace bough::io {
 
+/// The state of another run in which a run starts.
+struct StartOrigin {
+  std::filesystem::path folder, file;  ///< of the other run, and the file in it that holds the state
+  double time = 0.0;                   ///< [s], or load factor
+  std::string hash = {};               ///< of the state
+};
+
 /// Inputs of a run: the scene, overrides, and the program.
 struct RunOrigin {
   std::filesystem::path scene_file = {};       ///< "-": standard input; empty: the scene was made in memory
@@ -18,6 +26,7 @@ struct RunOrigin {
   std::vector<std::string> overrides = {};     ///< "/pointer=value", in the order in which they were applied
   std::string commit = {}, program_hash = {};  ///< of the program that ran (program_hash.hpp)
   std::string key = {};                        ///< of a case of a batch: its identity (manifest.hpp)
+  std::optional<StartOrigin> from = {};        ///< none: the scene's own start
 
   std::vector<std::filesystem::path> inputs() const;  ///< files that the results must not replace
 };
@@ -41,6 +50,7 @@ struct SummaryFile {
   std::string not_judged;              ///< errors that may exist nevertheless
   std::vector<records::ExpectedResult> expected;
   std::vector<records::MeasureResult> measures;
+  std::string scene_hash, start_hash;  ///< of the scene, and of the state in which it started; empty: there is none
   std::vector<std::string> overrides;  ///< of the scene, as they were given
   std::vector<FileRecord> files;       ///< that were written with it
 };

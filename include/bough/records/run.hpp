@@ -314,6 +314,8 @@ struct Summary {
   }
 };
 
+struct StoredState;  // stored_state.hpp
+
 /// Receives a run as it goes. A writer throws std::runtime_error where it cannot write; the run then fails with that
 /// cause.
 class Recorder {
@@ -325,6 +327,11 @@ class Recorder {
   /// Before the first frame of a motion.
   virtual void parts(const MotionParts& /*parts*/) {}
   virtual void end(const Summary& summary) = 0;
+
+  /// Whether states are to be handed out from which other scenes can start: at pictures for other programs, and at the
+  /// end.
+  virtual bool keeps_states() const { return false; }
+  virtual void state(const StoredState& /*state*/) {}
 
   /// Whether checkpoints may be asked for: a run then keeps what it needs to make its factorization again.
   virtual bool keeps_checkpoints() const { return false; }

@@ -22,8 +22,8 @@ struct Estimate {
 Estimate estimate_run(const scene::Scene& scene);
 
 /// Empty if a run stays within `limit` bytes; else a message with the numbers and a remedy. Motion in a plane or
-/// without rotation takes about half of the memory; a plan is made only if this decides, and not of scenes so large that
-/// the plan itself would take long: these are taken to move in space.
+/// without rotation takes about half of the memory; a plan is made only if this decides, of a scene whose plan would take
+/// long with few elements a beam, and not where that is too large as well: it is taken to move in space.
 std::string refusal(const scene::Scene& scene, double limit);
 
 }  // namespace bough::run

@@ -1,9 +1,11 @@
 #pragma once
 /// One simulation from a scene to results.
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "bough/records/run.hpp"
+#include "bough/records/stored_state.hpp"
 #include "bough/scene/scene.hpp"
 #include "bough/step/advance.hpp"
 
@@ -19,6 +21,8 @@ struct BeforeStep {
 struct SimulateOptions {
   int threads = 1;           ///< >= 1; results do not depend on it
   bool want_motion = false;  ///< record the moving structure even if the scene does not request it
+  /// State of another run in which dynamics starts (problems_of_start); none: the scene's own start.
+  std::shared_ptr<const records::StoredState> from = {};
   /// Times at which sensors are sampled, ascending, in addition to those of expected figures. Load steps and steps of
   /// variable size end there; within steps of equal size sensors are interpolated.
   std::vector<double> stops = {};
@@ -34,6 +38,12 @@ struct SimulateOptions {
   /// Called once after the last step, also if the run failed.
   std::function<void(step::System&, const step::State&)> after_run = {};
 };
+
+/// Why a scene cannot start from a state, one sentence a reason, as far as its plan need not be known for that; empty:
+/// it can. What only the plan knows makes the run a failed one.
+std::vector<std::string> problems_of_start(const scene::Scene& scene, const records::StoredState& from);
+/// Time at which it starts from there [s]: that of the state, and 0 if the state is one of statics.
+double start_time(const records::StoredState& from);
 
 /// Called after every accepted step. If it returns false, the run ends here as interrupted.
 using ProgressCallback = std::function<bool(const records::Progress&)>;

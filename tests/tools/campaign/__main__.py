@@ -16,7 +16,7 @@ import time
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER))
 
-PARTS = ("fuzz", "limits", "kills", "faults", "nonsense", "checkpoints")
+PARTS = ("fuzz", "limits", "kills", "faults", "nonsense", "checkpoints", "nights", "races")
 
 
 def main():

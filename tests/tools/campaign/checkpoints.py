@@ -2,8 +2,8 @@
 was never cut, byte for byte, the summary apart from its times.
 
 Half of the cuts of runs are SIGTERM or SIGUSR1, which a run answers with a checkpoint, the others SIGKILL. Between two
-attempts a checkpoint is sometimes cut off, altered, or taken from another scene or program: it has to be refused by
-name, and the other one used. Cases of the sweeps take longer than the time between two kills."""
+attempts a checkpoint is sometimes cut off, altered, or taken from another scene or program, or rows of the history
+between the two are altered: it has to be refused by name, and the other one used. Cases of the sweeps take longer than the time between two kills."""
 import json
 import pathlib
 import random
@@ -100,6 +100,26 @@ def spoil(file, draw):
     return said
 
 
+def spoil_output(files):
+    """Alters what the history has got between the two checkpoints. Returns what a run has to say of the later one, or
+    nothing where there are no such rows."""
+    times = [float(f.read_bytes().split(b"\n", 1)[0].split(b",")[4]) for f in files]
+    history = next((p for p in (files[-1].parent / "history.csv.partial", files[-1].parent / "history.csv") if p.exists()))
+    content = history.read_bytes()
+    at = content.index(b"\n") + 1
+    while at < len(content):
+        end = content.find(b"\n", at)
+        if end < 0:
+            return ""
+        time_of_row = float(content[at:end].split(b",", 1)[0])
+        if times[0] < time_of_row <= times[1]:
+            last = content[end - 1]
+            history.write_bytes(content[:end - 1] + (b"1" if last != ord("1") else b"2") + content[end:])
+            return "not as it was"
+        at = end + 1
+    return ""
+
+
 class Runs:
     def __init__(self, options, folder):
         self.program, self.folder, self.wholes = str(options.program), folder, {}
@@ -139,7 +159,9 @@ class Runs:
             extra = ["--resume"]
             files = checkpoint_files(out)
             if len(files) == 2 and draw.random() < 0.5:
-                expected = spoil(files[-1], draw)
+                expected = spoil_output(files) if draw.random() < 0.3 else ""
+                counts["altered outputs"] += 1 if expected else 0
+                expected = expected or spoil(files[-1], draw)
                 counts["spoiled checkpoints"] += 1
                 code, said = cut(self.words(name, out, [*extra, *threads]), signal.SIGTERM, draw.uniform(0.1, 0.5 * seconds))
                 if code not in (0, -signal.SIGTERM) and (files[-1].name not in said or expected not in said):
@@ -205,7 +227,7 @@ def cut_sweep(runs, number, draw, counts):
 
 
 def run(options):
-    outcome = Outcome({"cuts": 0, "gone on with": 0, "spoiled checkpoints": 0, "kills of sweeps": 0})
+    outcome = Outcome({"cuts": 0, "gone on with": 0, "spoiled checkpoints": 0, "altered outputs": 0, "kills of sweeps": 0})
     draw = random.Random(options.seed)
     with tempfile.TemporaryDirectory() as folder:
         runs = Runs(options, pathlib.Path(folder))
