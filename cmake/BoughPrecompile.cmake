@@ -33,6 +33,15 @@ function(bough_precompile kind)
   endforeach()
 endfunction()
 
+# bough_use_precompiled(target ...): options of targets of g++ with precompiled headers. ccache, which sees no header that stands in one, has to be told
+# that there is one: it would take objects made with other headers. And the standard library, precompiled, is no system header to g++ 12, whose false
+# alarms about strings are shown then.
+function(bough_use_precompiled)
+  foreach(target IN LISTS ARGN)
+    target_compile_options(${target} PRIVATE -fpch-preprocess -Wno-array-bounds)
+  endforeach()
+endfunction()
+
 # bough_precompile_headers(target HEADERS header ... SKIP source ...): in optimised builds of static layers by g++, HEADERS
 # and the headers of the standard library that go with them are compiled once for the sources of a target, but for those with options of their own.
 function(bough_precompile_headers target)
@@ -42,6 +51,5 @@ function(bough_precompile_headers target)
   endif()
   target_precompile_headers(${target} PRIVATE <algorithm> <cmath> ${PCH_HEADERS})
   set_source_files_properties(${PCH_SKIP} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
-  # Precompiled, the standard library is no system header to g++ 12, whose false alarms about strings are shown then.
-  target_compile_options(${target} PRIVATE -Wno-array-bounds)
+  bough_use_precompiled(${target})
 endfunction()

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "support/scenes.hpp"
 
@@ -143,6 +144,17 @@ TEST(Verdict, steady_forced_vibrations_forget_their_errors_and_coarse_ones_are_d
   EXPECT_NE(doubt(coarse, "error"), "") << "ten steps a period: " << all_doubts(coarse);
   const Outcome free = run_of(forced, {"/joints/0/forces/0/damping=0", "/analysis/step_size=0.05"});
   EXPECT_NE(doubt(free, "error"), "") << "without a damper nothing is forgotten: " << all_doubts(free);
+  // z'' + w^2 z = f sin(v t) from rest, over 290 periods.
+  const double w = std::sqrt(2600.0 / 800.0), v = 2.0 * std::numbers::pi / 5.0, a = 1950.0 / 800.0 / (w * w - v * v);
+  const auto z = free.history.column("z");
+  double error = 0.0;
+  for (std::size_t i = 0; i < free.history.times.size(); ++i) {
+    const double t = free.history.times[i];
+    error = std::max(error, std::abs(free.history.rows[i][z] - a * (std::sin(v * t) - v / w * std::sin(w * t))));
+  }
+  const records::SensorError& told = free.summary.sensor_errors.at(0);
+  EXPECT_GT(told.relative(), 0.5 * error / told.range) << error;
+  EXPECT_LT(told.relative(), 3.0 * error / told.range) << error;
 }
 
 /// A cantilever of 1 m and 2 N m^2 under a force that follows its end.
