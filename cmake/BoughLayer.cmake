@@ -147,7 +147,7 @@ function(bough_add_layer_target target suffix)
   if(NOT name IN_LIST BOUGH_LAYERS_OF_STEPS)
     target_compile_options(${target} PRIVATE ${BOUGH_MODERATE_OPTIMISATION})
   endif()
-  if(name IN_LIST BOUGH_LAYERS_OF_STEPS AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
+  if(name IN_LIST BOUGH_LAYERS_OF_STEPS AND NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
     set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)  # neighbours would change what is inlined into kernels
   endif()
   add_dependencies(${target} bough_version)

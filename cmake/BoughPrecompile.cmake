@@ -32,3 +32,16 @@ function(bough_precompile kind)
     target_precompile_headers(${target} REUSE_FROM ${owner})
   endforeach()
 endfunction()
+
+# bough_precompile_headers(target HEADERS header ... SKIP source ...): in optimised builds of static layers by g++, HEADERS
+# and the headers of the standard library that go with them are compiled once for the sources of a target, but for those with options of their own.
+function(bough_precompile_headers target)
+  cmake_parse_arguments(PARSE_ARGV 1 PCH "" "" "HEADERS;SKIP")
+  if(BOUGH_PRECOMPILE OR BUILD_SHARED_LIBS OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    return()
+  endif()
+  target_precompile_headers(${target} PRIVATE <algorithm> <cmath> ${PCH_HEADERS})
+  set_source_files_properties(${PCH_SKIP} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  # Precompiled, the standard library is no system header to g++ 12, whose false alarms about strings are shown then.
+  target_compile_options(${target} PRIVATE -Wno-array-bounds)
+endfunction()

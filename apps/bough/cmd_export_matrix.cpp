@@ -38,7 +38,7 @@ int export_matrix(const ExportMatrixArguments& arguments) {
                                                                     : interface.flexibility;
       io::write_file(out, is_for_numpy
                               ? io::npy_square(matrix)
-                              : io::matrix_market_text(matrix, study::comments_of(interface, *system, arguments.matrix),
+                              : io::matrix_market_text(matrix, interface.comments(arguments.matrix, system->step),
                                                        interface.unknowns.size()));
       std::cout << out.string() << ": " << arguments.matrix << " of interface " << arguments.interface << ", "
                 << interface.unknowns.size() << " unknowns, condition " << io::rounded_text(interface.condition, 3)

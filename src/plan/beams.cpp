@@ -127,12 +127,7 @@ void Builder::add_beams() {
       }
       p.nodes.push_back(port.node);
     }
-    if (beam.order == 1)
-      add_elements<2>(*this, beam, p, ports);
-    else if (beam.order == 2)
-      add_elements<3>(*this, beam, p, ports);
-    else
-      add_elements<4>(*this, beam, p, ports);
+    with_nodes_of_order(beam.order, [&]<int N>() { add_elements<N>(*this, beam, p, ports); });
     plan.beams.push_back(std::move(p));
   }
 }

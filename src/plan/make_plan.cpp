@@ -278,27 +278,24 @@ void Builder::list_given_velocities() {
 
 void Builder::number_elements() {
   int first = 0;
-  std::uint8_t array_id = 0;
-  std::vector<int> first_of_array;
+  std::array<int, std::tuple_size_v<ElementArrays>> first_of{};
   for_each_array(plan.elements, [&](const auto& array) {
     using E = typename std::decay_t<decltype(array)>::value_type;
-    first_of_array.push_back(first);
+    constexpr std::size_t place = index_of<E>;
+    first_of[place] = first;
     for (std::size_t i = 0; i < array.size(); ++i) {
-      plan.directory.push_back({array_id, static_cast<std::int32_t>(i)});
+      plan.directory.push_back({static_cast<std::uint8_t>(place), static_cast<std::int32_t>(i)});
       plan.element_owner.push_back(owners<E>()[i]);
     }
     first += static_cast<int>(array.size());
-    ++array_id;
   });
-  constexpr std::size_t joint_array = 4;
-  static_assert(std::tuple_element_t<joint_array, ElementArrays>::value_type::role == elements::Role::joint);
-  for (JointPlan& j : plan.joints) j.element += first_of_array[joint_array];
-  for (BeamPlan& b : plan.beams) {
-    const std::size_t array = static_cast<std::size_t>(b.order) - 1;
-    for (int& e : b.elements) e += first_of_array[array];
-    for (auto& list : b.loads)
-      for (int& e : list) e += first_of_array[8 + array];
-  }
+  for (JointPlan& j : plan.joints) j.element += first_of[index_of<elements::Joint>];
+  for (BeamPlan& b : plan.beams)
+    with_nodes_of_order(b.order, [&]<int N>() {
+      for (int& e : b.elements) e += first_of[index_of<elements::Beam<N>>];
+      for (auto& list : b.loads)
+        for (int& e : list) e += first_of[index_of<elements::LineLoad<N>>];
+    });
 }
 
 /// In the order in which pictures show them: joints, springs and bushings, then the ends of beams.

@@ -499,10 +499,10 @@ void Builder::choose_unknowns() {
         holds = !v.obstacle;
         if (holds) {
           reason = why;
-          const bool is_taken = !is_barred(name) && plan.unknowns.is_whole();
-          if (is_taken && tolerance > small) plan.precision = tolerance;
-          if (is_taken) take(*this, motion);
-          if (is_taken && tolerance > small) {
+          if (is_barred(name) || !plan.unknowns.is_whole()) break;
+          plan.precision = tolerance > small ? tolerance : 0.0;
+          take(*this, motion);
+          if (plan.precision > 0.0) {
             char text[160];
             std::snprintf(text, sizeof text,
                           "places are written with %d decimals: within them, with differences of up to %.2g of "

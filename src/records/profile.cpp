@@ -22,10 +22,6 @@ void add(SubdomainTimes& sum, const SubdomainTimes& t) {
   sum.wait = std::max(sum.wait, t.wait);
 }
 
-}  // namespace
-
-namespace {
-
 double largest_of(const std::vector<InterfaceNode>& nodes, const double (InterfaceNode::*part)[3]) {
   if (nodes.empty()) return std::numeric_limits<double>::quiet_NaN();
   double most = 0.0;

@@ -17,7 +17,6 @@ using records::Profile;
 using records::SubdomainProfile;
 
 constexpr double width = 960.0, least_width = 1.2;  // [px]
-constexpr int num_colors = 9;
 constexpr std::size_t num_measures = 4;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
@@ -46,9 +45,9 @@ struct Range {
   bool has_any() const { return low <= high; }
   int color(double x) const {
     if (!std::isfinite(x) || x <= 0.0) return -1;
-    if (!(high > low)) return num_colors / 2;
+    if (!(high > low)) return num_shades / 2;
     const double t = std::log(x / low) / std::log(high / low);
-    return std::clamp(static_cast<int>(t * num_colors), 0, num_colors - 1);
+    return std::clamp(static_cast<int>(t * num_shades), 0, num_shades - 1);
   }
 };
 
@@ -126,10 +125,10 @@ std::string legend(const Measure& m, const Range& range, double top) {
       "<g class=\"of-" + std::string(m.key) + "\">\n" + text_element("tiny soft", 0.0, top + 11.0, "start", m.label);
   if (!range.has_any()) return text + text_element("tiny soft", 400.0, top + 11.0, "start", "not known") + "</g>\n";
   text += text_element("tiny soft", 592.0, top + 11.0, "end", m.text(range.low));
-  for (int c = 0; c < num_colors; ++c)
+  for (int c = 0; c < num_shades; ++c)
     text += "<rect class=\"f" + std::to_string(c) + "\" x=\"" + pixel(600.0 + 28.0 * c) + "\" y=\"" + pixel(top) +
             "\" width=\"28\" height=\"14\"/>\n";
-  return text + text_element("tiny soft", 608.0 + 28.0 * num_colors, top + 11.0, "start", m.text(range.high)) +
+  return text + text_element("tiny soft", 608.0 + 28.0 * num_shades, top + 11.0, "start", m.text(range.high)) +
          "</g>\n";
 }
 
@@ -148,7 +147,7 @@ std::string fill_styles(const std::string& selector, const std::string& prefix) 
   static constexpr const char* dark[] = {"#14315a", "#184f95", "#1c5cab", "#256abf", "#2a78d6",
                                          "#3987e5", "#6da7ec", "#9ec5f4", "#cde2fb"};
   std::string text, night;
-  for (int c = 0; c < num_colors; ++c) {
+  for (int c = 0; c < num_shades; ++c) {
     const std::string rule = selector + "." + prefix + std::to_string(c) + "{fill:";
     text += rule + light[c] + "}";
     night += rule + dark[c] + "}";

@@ -16,7 +16,6 @@ using records::Profile;
 using records::SubdomainProfile;
 
 constexpr double side = 300.0, head = 20.0;  // [px]
-constexpr int num_colors = 9;
 
 /// Entries of P^1/2 F P^1/2 by magnitude: nine decades up to the largest.
 std::string flexibility_svg(const SubdomainProfile& s) {
@@ -33,9 +32,9 @@ std::string flexibility_svg(const SubdomainProfile& s) {
   for (std::size_t j = 0; j < n; ++j)
     for (std::size_t i = 0; i < n; ++i) {
       const double value = s.flexibility[j * n + i];
-      const double decades = value == 0.0 || !(largest > 0.0) ? -num_colors : std::log10(std::abs(value) / largest);
-      const int color = num_colors - 1 + std::max(1 - num_colors, static_cast<int>(std::ceil(decades)));
-      svg += "<rect class=\"h" + std::to_string(std::clamp(color, 0, num_colors - 1)) + "\" x=\"" +
+      const double decades = value == 0.0 || !(largest > 0.0) ? -num_shades : std::log10(std::abs(value) / largest);
+      const int color = num_shades - 1 + std::max(1 - num_shades, static_cast<int>(std::ceil(decades)));
+      svg += "<rect class=\"h" + std::to_string(std::clamp(color, 0, num_shades - 1)) + "\" x=\"" +
              pixel(cell * static_cast<double>(j)) + "\" y=\"" + pixel(head + cell * static_cast<double>(i)) +
              "\" width=\"" + pixel(cell) + "\" height=\"" + pixel(cell) + "\"><title>" + escaped(s.unknowns[i]) +
              " by " + escaped(s.unknowns[j]) + ": " + io::rounded_text(value, 3) + "</title></rect>\n";

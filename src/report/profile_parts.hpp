@@ -10,7 +10,9 @@ namespace bough::report {
 
 class Document;
 
-/// Rules that fill nine classes, faint to strong, against a light or dark background.
+constexpr int num_shades = 9;
+
+/// Rules that fill as many classes, faint to strong, against a light or dark background.
 std::string fill_styles(const std::string& selector, const std::string& prefix);
 
 /// A row of buttons of which one is chosen: inputs GROUP-KEY, for rules "#GROUP-KEY:checked~svg ...".

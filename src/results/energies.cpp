@@ -67,12 +67,24 @@ struct Kind {
   std::vector<elements::LaneElement<E>> lanes;
 };
 struct NoKind {};
+/// Of all types of elements but loads, whose energy is not their own.
 template <class E>
-using KindOf = std::conditional_t<elements::exists<E>, Kind<E>, NoKind>;
+constexpr auto kind_of() {
+  if constexpr (std::is_same_v<E, plan::NoElement>)
+    return NoKind{};
+  else if constexpr (E::role == elements::Role::load)
+    return NoKind{};
+  else
+    return Kind<E>{};
+}
+template <class Arrays>
+struct KindsOf;
+template <class... E>
+struct KindsOf<std::tuple<std::vector<E>...>> {
+  using Type = std::tuple<decltype(kind_of<E>())...>;
+};
 template <class G>
-using Kinds = std::tuple<KindOf<elements::BeamOn<G, 2>>, KindOf<elements::BeamOn<G, 3>>, KindOf<elements::BeamOn<G, 4>>,
-                         Kind<elements::RigidBodyOn<G>>, Kind<elements::JointOn<G>>, Kind<elements::SpringOn<G>>,
-                         KindOf<elements::BushingOn<G>>>;
+using Kinds = typename KindsOf<plan::ArraysOn<G>>::Type;
 /// Calls f(kind) for those that exist on the group.
 template <class K, class F>
 void for_each_kind(K& kinds, const F& f) {

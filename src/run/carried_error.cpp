@@ -11,7 +11,7 @@ namespace bough::run {
 namespace {
 
 constexpr double share = 0.02;       ///< of the time of a run that errors may cost
-constexpr double always = 0.02;      ///< seconds that they may cost in any case
+constexpr double always = 0.005;     ///< seconds, by the model of steps, that they may cost in any case
 constexpr double of_start = 24.0;    ///< cost of a system and a solver of its own, in steps of the error
 constexpr double turn_a_step = 0.2;  ///< of vibrations, in one step of the error [rad]: 30 steps a period
 constexpr double spin_a_step = 0.1;  ///< of nodes, in one step of the error [rad]
@@ -21,6 +21,9 @@ constexpr double most_spin = 0.25;   ///< the same of nodes
 constexpr long most_stride = 128;
 constexpr double fewest = 24.0;  ///< steps of the error in a run: fewer tell nothing
 
+/// Relative error of periods over the square of the turn in a step, of generalized-alpha with the transport's spectral
+/// radius.
+constexpr double period_error = 0.088;
 constexpr double tolerance_share = 1e-3;  ///< of accelerations, that Newton's iteration leaves open
 
 struct Costs {
@@ -124,7 +127,7 @@ double CarriedError::grows_in() const {
 }
 
 void CarriedError::add(const step::State& state, const step::LocalError& local, double steps) {
-  transport_.add(state, local, steps);
+  added_ += transport_.add(state, local, steps);
   transport_.disturb(state, steps * state.step_size * left_open_);
 }
 
@@ -144,6 +147,7 @@ void CarriedError::choose_stride(const step::State& state, double turn, double s
   const auto wanted = static_cast<long>(std::min(steps, 1e6));
   all_ += spent;
   const double turned = static_cast<double>(stride_) * turn;
+  detuned_ += period_error * turned * (turned * turned - turn * turn);
   if ((stride_ > 1 && (turned > most_turn || spun > most_spin)) || !transport_.is_solved()) unresolved_ += spent;
   // Even steps as small as those of the run turn too far: what the rule adds to the error there is not certain.
   if (spun > most_spin) too_much_ = std::numeric_limits<double>::infinity();

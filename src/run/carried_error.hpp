@@ -9,7 +9,7 @@
 namespace bough::run {
 
 /// Decides how many steps of the run one step of an error spans. It has to resolve the motion (`turn_a_step`), and all
-/// of them together may cost 2 % of the run, or 0.02 s where that is more. Costs are those of the model of steps, so
+/// of them together may cost 2 % of the run, or 0.005 s where that is more. Costs are those of the model of steps, so
 /// that the decision is the same on every machine.
 class CarriedError {
  public:
@@ -40,7 +40,7 @@ class CarriedError {
   void restart(double time);
   void checkpoint(records::Archive& archive) {
     archive(local_, transport_, budget_, stride_, since_, has_first_, duration_, middle_, largest_early_, largest_,
-            reaction_, too_much_, all_, unresolved_);
+            reaction_, too_much_, all_, unresolved_, added_, detuned_);
   }
 
   const step::ErrorTransport& transport() const { return transport_; }
@@ -48,8 +48,15 @@ class CarriedError {
   double grows_in() const;
   /// The part of a carried error that is certain, where the rule makes errors of nodes that turn grow too fast.
   double certain_part() const { return std::exp(-too_much_); }
-  /// Whether its steps have resolved the motion.
-  bool is_resolved() const { return unresolved_ <= 0.1 * all_; }
+  /// Whether its steps have resolved the motion, and kept up with it: in steps longer than those of the run a vibration
+  /// of the error is slower than that of the run, and errors of many periods do not add up as they should. An error that
+  /// has kept n of those added on its way, n times the mean of them large, is out of step with them by n times the
+  /// difference of a step. One that is larger than all that was added grows by itself.
+  bool is_resolved() const {
+    constexpr double out_of_step = 2.0;  // [rad]; an undamped vibration loses a sixth of its error by then
+    const bool keeps_up = largest_ * detuned_ <= out_of_step * added_ || largest_ > added_;
+    return unresolved_ <= 0.1 * all_ && keeps_up;
+  }
 
  private:
   bool is_at_peak(const step::State& state);
@@ -69,6 +76,8 @@ class CarriedError {
   double reaction_ = 0.0;                       ///< fading mean of the largest multiplier
   double too_much_ = 0.0;
   double all_ = 0.0, unresolved_ = 0.0;  ///< durations [s]
+  double added_ = 0.0;                   ///< sum of the sizes of errors added
+  double detuned_ = 0.0;  ///< by how much less than the run the error has turned in its steps, all together [rad]
 };
 
 }  // namespace bough::run

@@ -11,7 +11,6 @@ using motion::Vec3;
 using motion::Vec6;
 
 constexpr double round_off = 1e-9;  ///< relative to the largest speed; starts are consistent to some 1e-10
-constexpr double units = 16.0;      ///< of the precision of the scene, which given velocities have as well
 
 /// Largest entry, lengths relative to the size of the structure [1/s].
 double speed_of(const Vec6<double>& twist, double length) {
@@ -31,7 +30,7 @@ std::vector<records::ChangedVelocity> changed_velocities(const plan::Plan& plan,
   const auto compare = [&](const std::string& of, bool is_angular, const Vec3<double>& asked, const Vec3<double>& got) {
     if (length_of(asked) == 0.0) return;  // not given
     const double change = length_of(Vec3<double>(got - asked)) / (is_angular ? speed : speed * plan.length_scale);
-    if (change <= std::max(round_off, units * plan.precision)) return;
+    if (change <= std::max(round_off, plan.disagreement())) return;
     const auto known = std::find_if(changed.begin(), changed.end(), [&](const records::ChangedVelocity& c) {
       return c.of == of && c.is_angular == is_angular;
     });

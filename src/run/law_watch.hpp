@@ -10,9 +10,10 @@
 namespace bough::run {
 
 /// An integrator knows laws at the ends of steps, so that what it sees of the impulse of a step is the trapezoidal sum.
-/// For each law the integral is compared with that sum, step by step. Stretches of steps in which the bound of the
-/// second derivative leaves no room for a difference are passed over; the others are halved down to single steps, the
-/// largest bound first. Bounds are rigorous: however short a pulse is, it is found.
+/// For each law the integral is compared with that sum, step by step, and the law of a prescribed place with the
+/// straight line over the step. Stretches of steps in which the bound of the second derivative leaves no room for a
+/// difference are passed over; the others are halved down to single steps, the largest bound first. Bounds are
+/// rigorous: however short a pulse is, it is found.
 class LawWatch {
  public:
   explicit LawWatch(const plan::Plan& plan);

@@ -66,16 +66,6 @@ bool has_narrow_interfaces(const tree::Tree& tree) {
   return widest_interface(tree) <= widest_for_condition && tree.num_subdomains() <= 10000;
 }
 
-/// Interfaces of the forms that have a tree of them.
-std::vector<solve::InterfaceReport> interfaces_of(step::System& system) {
-  // The walker of the run may be timed, and this factorization is not one of its steps.
-  const tree::Walker walker = schedule::make_serial_walker();
-  solve::AnySolver& solver = system.linear().solver();
-  if (solver.augmented() != nullptr) return solver.augmented()->interfaces(widest_for_condition);
-  return solver.hierarchical() != nullptr ? solver.hierarchical()->interfaces(walker)
-                                          : std::vector<solve::InterfaceReport>{};
-}
-
 /// Levels of the tree with their widths, and the condition numbers of their interfaces if these are narrow.
 /// indefinite: receives the number of those whose stiffness is not definite, which no bound on the condition holds for.
 std::vector<records::LevelFigures> make_levels(step::System& system, int& indefinite) {
@@ -90,7 +80,9 @@ std::vector<records::LevelFigures> make_levels(step::System& system, int& indefi
   }
   for (std::size_t l = 0; l < levels.size(); ++l) levels[l].level = static_cast<int>(l);
   if (!has_narrow_interfaces(tree)) return levels;
-  for (const solve::InterfaceReport& i : interfaces_of(system)) {
+  // The walker of the run may be timed, and this factorization is not one of its steps.
+  for (const solve::InterfaceReport& i :
+       system.linear().solver().interfaces(schedule::make_serial_walker(), widest_for_condition)) {
     records::LevelFigures& level = levels[static_cast<std::size_t>(i.level)];
     level.condition = std::max(level.condition, i.condition);
     indefinite += i.is_definite ? 0 : 1;

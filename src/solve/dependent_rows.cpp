@@ -100,7 +100,7 @@ void DependentRows::find(const tree::Walker& walker, const RemainingUnknowns& re
   if (std::sqrt(worst) > options_.null_motion_tolerance) {
     status.outcome = FactorOutcome::singular;
     status.front = tree.num_fronts() - 1;
-    status.block = block_of_unknown(tree, unknown);
+    status.block = tree.block_of_unknown(unknown);
     status.local = static_cast<int>(unknown - tree.unknown_begin[at(status.block)]);
     status.magnitude = std::sqrt(worst);
   }

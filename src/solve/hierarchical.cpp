@@ -261,9 +261,8 @@ void Hierarchical::State::take(const double* b, double* x_out, bool looks_again)
 /// measurement reads all matrices, so it serves the next few factorizations, too.
 void Hierarchical::State::measure_matrices(const tree::Walker& walker) {
   constexpr double largest_drift = 64.0;
-  constexpr std::int64_t serves = 8;
   if (counters.factorizations < next_measurement) return;
-  next_measurement = counters.factorizations + serves;
+  next_measurement = counters.factorizations + measurement_serves;
   const ElementStore::Sizes measured = elements.eval_sizes(walker, scales);
   norm = measured.norm;
   scales_wanted = scales_wanted || measured.drift > largest_drift;

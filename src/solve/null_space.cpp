@@ -210,11 +210,9 @@ void Hierarchical::State::find_null_space() {
     }
   }
   if (!(std::sqrt(worst) <= options.null_motion_tolerance)) {
-    const auto next =
-        std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), static_cast<std::int64_t>(unknown));
     status.outcome = FactorOutcome::singular;
     status.front = tree.num_fronts() - 1;
-    status.block = static_cast<int>(next - tree.unknown_begin.begin()) - 1;
+    status.block = tree.block_of_unknown(static_cast<std::int64_t>(unknown));
     status.local = static_cast<int>(static_cast<std::int64_t>(unknown) - tree.unknown_begin[at(status.block)]);
     status.magnitude = std::sqrt(worst);
   }

@@ -205,7 +205,8 @@ void ErrorTransport::end_step(const AlphaRule& rule) {
   }
 }
 
-void ErrorTransport::add(const State& state, const LocalError& local, double steps) {
+double ErrorTransport::add(const State& state, const LocalError& local, double steps) {
+  double most = 0.0;
   std::size_t k = 0;
   for (std::size_t i = 0; i < plan::driving_signals(plan_).size(); ++i)
     if (plan_.signals[i].is_state()) signals_.value[i] += steps * local.of_state(k++);
@@ -219,11 +220,13 @@ void ErrorTransport::add(const State& state, const LocalError& local, double ste
     const Vec6<double> dv =
         join((of_place > 0.0 ? length_of(linear_part(eta)) / of_place : 0.0) * linear_part(error.velocity),
              (of_turn > 0.0 ? length_of(angular_part(eta)) / of_turn : 0.0) * angular_part(error.velocity));
+    most = std::max(most, size_of(eta, plan_.length_scale));
     z_[n] += to_ground(nodes[n].R, eta);
     // dx' = R (du - u x eta_w)
     rate_[n] += to_ground(nodes[n].R,
                           join(linear_part(dv) - cross(linear_part(nodes[n].v), angular_part(eta)), angular_part(dv)));
   }
+  return most;
 }
 
 void ErrorTransport::disturb(const State& state, double duration) {

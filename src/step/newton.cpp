@@ -30,11 +30,10 @@ constexpr double least_residual = 1e-13;
 
 ResidualSize residual_of(const System& system) {
   ResidualSize r = system.residual_size();
-  const double precision = system.plan().precision;
-  if (!(precision > 0.0) || system.linear().solver().last_status().deficiency <= 0) return r;
-  constexpr double units = 16.0;
-  r.length = std::max(0.0, r.length - units * precision * system.plan().length_scale);
-  r.angle = std::max(0.0, r.angle - units * precision);
+  const double disagreement = system.plan().disagreement();
+  if (!(disagreement > 0.0) || system.linear().solver().last_status().deficiency <= 0) return r;
+  r.length = std::max(0.0, r.length - disagreement * system.plan().length_scale);
+  r.angle = std::max(0.0, r.angle - disagreement);
   return r;
 }
 

@@ -203,10 +203,8 @@ StartReport make_consistent_on(System& system, State& state, bool fix_positions,
     gap = next;
     if (const auto t = factor_mass(system, state, step_size)) return failed(t->text);
   }
-  // Rows that depend on each other within the precision of the scene need not agree better.
-  constexpr double units = 64.0;
-  const double precision = units * system.plan().precision;
-  if (gap > std::max(open, precision)) {
+  const double disagreement = system.plan().disagreement();
+  if (gap > std::max(open, disagreement)) {
     char text[80];
     std::snprintf(text, sizeof text, " cannot be closed at time %.6g: a gap of %.3g is left", state.time,
                   system.constraints().violation(state, 0));
@@ -222,7 +220,7 @@ StartReport make_consistent_on(System& system, State& state, bool fix_positions,
   speed = std::max(speed, speed_scale(system, state));
   if (report.velocity_change * speed <= still / step_size) report.velocity_change = 0.0;
   if (system.constraints().relative_violation(state, 1, &worst) >
-      std::max(apart, precision) * speed + still / step_size) {
+      std::max(apart, disagreement) * speed + still / step_size) {
     char text[80];
     std::snprintf(text, sizeof text, " cannot move as asked at time %.6g: a rate of %.3g is left", state.time,
                   system.constraints().violation(state, 1));

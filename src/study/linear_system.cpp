@@ -129,7 +129,7 @@ std::vector<UnknownBlock> make_blocks(const step::System& system) {
 /// with the path, in words; empty: nothing is.
 std::string fill_interface(step::System& system, const std::string& path, LinearSystem& out) {
   solve::AnySolver& solver = system.linear().solver();
-  if (solver.hierarchical() == nullptr && solver.augmented() == nullptr)
+  if (solver.column_scale().empty())
     return "the form of the solver has no interfaces of sub-domains: set /solver/form=local or augmented";
   const tree::Tree& tree = system.linear().tree();
   const std::optional<std::vector<int>> children = scene::read_path(path);
@@ -139,13 +139,8 @@ std::string fill_interface(step::System& system, const std::string& path, Linear
            std::to_string(tree.num_subdomains()) +
            ": bough profile lists them; /solver/depth and /solver/leaf_size cut it";
   constexpr int any_width = std::numeric_limits<int>::max();
-  const std::vector<solve::InterfaceReport> all =
-      solver.augmented() != nullptr ? solver.augmented()->interfaces(any_width, true)
-                                    : solver.hierarchical()->interfaces(system.walker(), any_width, true);
-  const std::span<const double> rows = solver.augmented() != nullptr ? solver.augmented()->row_scale()
-                                                                     : solver.hierarchical()->row_scale(),
-                                columns = solver.augmented() != nullptr ? solver.augmented()->column_scale()
-                                                                        : solver.hierarchical()->column_scale();
+  const std::vector<solve::InterfaceReport> all = solver.interfaces(system.walker(), any_width, true);
+  const std::span<const double> rows = solver.row_scale(), columns = solver.column_scale();
   const solve::InterfaceReport& report = all[at(id)];
   const std::vector<std::int64_t>& unknowns = report.matrices.unknowns;
   const std::size_t n = unknowns.size();
@@ -155,9 +150,8 @@ std::string fill_interface(step::System& system, const std::string& path, Linear
   to.penalty.assign(n * n, 0.0);
   to.flexibility.resize(n * n);
   for (std::size_t j = 0; j < n; ++j) {
-    const auto block = std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), unknowns[j]) -
-                       tree.unknown_begin.begin() - 1;
-    to.unknowns.push_back(system.linear().owners().name(static_cast<int>(block)) + " " +
+    const int block = tree.block_of_unknown(unknowns[j]);
+    to.unknowns.push_back(system.linear().owners().name(block) + " " +
                           std::to_string(unknowns[j] - tree.unknown_begin[at(block)] + 1));
     to.penalty[j * n + j] = report.matrices.penalty[j] / rows[at(unknowns[j])] / columns[at(unknowns[j])];
     for (std::size_t i = 0; i < n; ++i) {
@@ -241,16 +235,14 @@ std::optional<LinearSystem> make_linear_system(const scene::Scene& scene, const 
   return out;
 }
 
-std::vector<std::string> comments_of(const InterfaceSystem& interface, const LinearSystem& system,
-                                     const std::string& matrix) {
+std::vector<std::string> InterfaceSystem::comments(const std::string& matrix, long step) const {
   const std::string meaning = matrix == "S"   ? "S: the sub-domain condensed to its interface"
                               : matrix == "P" ? "P: the penalty of the augmented Lagrangian, diagonal"
                                               : "F = (S + P)^-1: the interface flexibility";
-  std::vector<std::string> lines{"bough: interface of a sub-domain in the first Newton iteration of step " +
-                                     std::to_string(system.step) + "; " + meaning,
-                                 "SI units; by owner and number of the component of its increment:"};
-  for (std::size_t k = 0; k < interface.unknowns.size(); ++k)
-    lines.push_back(std::to_string(k + 1) + " " + interface.unknowns[k]);
+  std::vector<std::string> lines{
+      "bough: interface of a sub-domain in the first Newton iteration of step " + std::to_string(step) + "; " + meaning,
+      "SI units; by owner and number of the component of its increment:"};
+  for (std::size_t k = 0; k < unknowns.size(); ++k) lines.push_back(std::to_string(k + 1) + " " + unknowns[k]);
   return lines;
 }
 

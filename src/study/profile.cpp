@@ -104,13 +104,6 @@ struct Found {
   solve::SolveOptions options;
 };
 
-std::vector<solve::InterfaceReport> interfaces_of(step::System& system, int widest) {
-  solve::AnySolver& solver = system.linear().solver();
-  if (solver.augmented() != nullptr) return solver.augmented()->interfaces(widest, true);
-  if (solver.hierarchical() == nullptr) return {};
-  return solver.hierarchical()->interfaces(schedule::make_serial_walker(), widest, true);
-}
-
 /// By sub-domain; the root has none. Places are those at the start.
 std::vector<std::vector<records::InterfaceNode>> eval_interface_nodes(const step::System& system,
                                                                       const step::State& state) {
@@ -146,9 +139,8 @@ void keep_flexibilities(std::vector<solve::InterfaceReport>& interfaces, const s
     records::SubdomainProfile& to = out.subdomains[at(i->subdomain)];
     const std::size_t n = i->matrices.unknowns.size();
     for (const std::int64_t u : i->matrices.unknowns) {
-      const auto block = std::upper_bound(first_of.begin(), first_of.end(), u) - first_of.begin() - 1;
-      to.unknowns.push_back(system.linear().owners().name(static_cast<int>(block)) + ", " +
-                            std::to_string(u - first_of[at(block)] + 1));
+      const int block = system.linear().tree().block_of_unknown(u);
+      to.unknowns.push_back(system.linear().owners().name(block) + ", " + std::to_string(u - first_of[at(block)] + 1));
     }
     to.flexibility.resize(n * n);
     for (std::size_t k = 0; k < n * n; ++k)
@@ -358,7 +350,8 @@ records::Profile profile(const scene::Scene& given, const ProfileOptions& option
     found.shapes = solve::make_visit_shapes(found.graph, found.tree, found.options);
     found.counters = system.linear().solver().counters();
     if (system.counts().factorizations > 0 && system.linear().solver().last_status().ok())
-      found.interfaces = interfaces_of(system, options.widest_condition);
+      found.interfaces =
+          system.linear().solver().interfaces(schedule::make_serial_walker(), options.widest_condition, true);
     out.subdomains.resize(at(found.tree.num_subdomains()));
     keep_flexibilities(found.interfaces, system, out);
     found.interface_nodes = eval_interface_nodes(system, state);
@@ -391,8 +384,7 @@ records::Profile profile(const scene::Scene& given, const ProfileOptions& option
   for (const schedule::ChunkTimes& c : run.times.chunks) wall += c.wall_sum;
   if (most > 0.0) out.load_balance = busy / (out.threads * most);
   if (wall > 0.0) out.efficiency = busy / (out.threads * wall);
-  const bool has_visits =
-      scene.solver.form == scene::SolverForm::local || scene.solver.form == scene::SolverForm::augmented;
+  const bool has_visits = walked_tree(run.times, found.shapes.visits.size()) != nullptr;
   if (out.steps == 0 || !has_visits) return out;
 
   NullRecorder nobody;

@@ -63,6 +63,33 @@ TEST(Verdict, a_pulse_shorter_than_a_step_is_told_and_one_that_steps_resolve_is_
   EXPECT_EQ(all_doubts(seen), "");
 }
 
+TEST(Verdict, a_pulse_in_a_prescribed_place_is_told_beside_a_motion_that_steps_see) {
+  const auto driven = [](const std::string& law) {
+    return R"({"bodies": [{"name": "b", "kind": "point_mass", "mass": 1}],
+      "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "b", "axis": [1, 0, 0],
+                  "drives": [{"law": {"expression": ")" +
+           law + R"("}}]}],
+      "sensors": [{"name": "x", "kind": "joint_displacement", "joint": "rail"}],
+      "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 1e-3}})";
+  };
+  const auto carried = [](const std::string& law) {
+    return R"({"frames": [{"name": "table", "position": [{"expression": ")" + law + R"("}, 0, 0]}],
+      "bodies": [{"name": "b", "kind": "point_mass", "mass": 1, "frame": "table"}],
+      "springs": [{"name": "s", "first": {"to": "table", "position": [-0.1, 0, 0]}, "second": "b", "stiffness": 100, "rest_length": 0.1}],
+      "sensors": [{"name": "x", "kind": "position", "at": "b"}],
+      "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 1e-3}})";
+  };
+  const std::string pulse = " + 0.02*exp(-((t-0.5005)/5e-5)^2)", smooth = "0.1*sin(2*pi*t)*t";
+  for (const std::string& slow : {std::string("0"), std::string("0.1*t^3"), smooth}) {
+    const Outcome missed = run_of(driven(slow + pulse));
+    EXPECT_NE(doubt(missed, "error", "do not see the law of 'rail'"), "") << slow << "\n" << all_doubts(missed);
+  }
+  EXPECT_EQ(all_doubts(run_of(driven(smooth))), "");
+  const Outcome on_table = run_of(carried(smooth + pulse));
+  EXPECT_NE(doubt(on_table, "error", "do not see the law of 'table'"), "") << all_doubts(on_table);
+  EXPECT_EQ(all_doubts(run_of(carried(smooth))), "");
+}
+
 TEST(Verdict, a_step_that_it_names_sees_the_pulse) {
   const Outcome missed = run_of(on_rail(R"({"expression": "1e5*exp(-((t-0.5005)/5e-5)^2) + 1e-9"})"));
   const std::string text = doubt(missed, "error", "take steps of ");

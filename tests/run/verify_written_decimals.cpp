@@ -88,9 +88,13 @@ TEST(WrittenDecimals, what_is_off_by_more_is_left_alone) {
   s.joints[4].second.offset.R = s.joints[4].second.offset.R * motion::exp_so3(motion::Vec3<double>{{1e-6, 0.0, 0.0}});
   EXPECT_EQ(plan::make_plan(s).unknowns.motions, plan::Motions::spatial);
   EXPECT_EQ(plan::make_plan(s).precision, 0.0);
-  // Few decimals are written by hand, and meant; more than twelve are round-off.
-  EXPECT_EQ(plan::make_plan(written_with(4, windows(), 3)).precision, 0.0);
-  EXPECT_EQ(plan::make_plan(windows()).precision, 0.0);
+  // Few decimals are written by hand, and meant; coordinates of more than twelve have no precision but round-off.
+  EXPECT_EQ(plan::make_plan(written_with(4, windows(), 3)).unknowns.motions, plan::Motions::spatial);
+  scene::Scene full = windows();
+  EXPECT_EQ(plan::make_plan(full).unknowns.motions, plan::Motions::planar);
+  full.joints[4].second.offset.R =
+      full.joints[4].second.offset.R * motion::exp_so3(motion::Vec3<double>{{1e-9, 0.0, 0.0}});
+  EXPECT_EQ(plan::make_plan(full).unknowns.motions, plan::Motions::spatial);
 }
 
 }  // namespace

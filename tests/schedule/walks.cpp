@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <new>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "bough/schedule/serial.hpp"
@@ -132,6 +134,20 @@ TEST(Walks, KeepTheirOrdersWhereThreadsAreKeptTogether) {
     EXPECT_EQ(runs, 2);
     EXPECT_THROW(threads.keep_together([] { throw std::runtime_error("out"); }), std::runtime_error);
     expect_orders(t, threads.walker());
+  }
+}
+
+TEST(Walks, KeepTheirOrdersWhereHelpersHaveGoneToSleepBetweenThem) {
+  const tree::Tree t = tree::make_tree(make_lattice(3, 8, 8).graph, {.leaf_size = 2});
+  for (int count : {2, 4}) {
+    const schedule::Threads threads(count, 0.0);
+    threads.keep_together([&] {
+      for (int k = 0; k < 10; ++k) {
+        expect_orders(t, threads.walker());
+        expect_chunks(threads.walker());
+        std::this_thread::sleep_for(std::chrono::milliseconds(k));
+      }
+    });
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 /// All elements of a model in one contiguous array per type, and the only place that iterates over the types.
+#include <cstddef>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -21,6 +22,30 @@ using ArraysOn =
                ArrayOf<elements::BushingOn<G>>, ArrayOf<elements::PointLoadOn<G>>, ArrayOf<elements::LineLoadOn<G, 2>>,
                ArrayOf<elements::LineLoadOn<G, 3>>, ArrayOf<elements::LineLoadOn<G, 4>>>;
 using ElementArrays = ArraysOn<motion::Se3>;
+
+namespace detail {
+template <class E, class... Listed>
+consteval std::size_t find_index(const std::tuple<std::vector<Listed>...>*) {
+  const bool is_listed[] = {std::is_same_v<E, Listed>...};
+  std::size_t i = 0;
+  while (!is_listed[i]) ++i;  // a type that is not listed does not compile
+  return i;
+}
+}  // namespace detail
+/// Place of a type of elements in the list: nothing else may know it.
+template <class E>
+constexpr std::size_t index_of = detail::find_index<E>(static_cast<const ArraysOn<typename E::Group>*>(nullptr));
+
+/// Calls f<N>() with the number of nodes of the elements of a beam of this order.
+template <class F>
+void with_nodes_of_order(int order, F&& f) {
+  if (order == 1)
+    f.template operator()<2>();
+  else if (order == 2)
+    f.template operator()<3>();
+  else
+    f.template operator()<4>();
+}
 
 template <class E>
 std::vector<E>& array_of(ElementArrays& all) {

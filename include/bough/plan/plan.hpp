@@ -283,6 +283,9 @@ struct Plan {
   /// Relative precision in which places and directions of the scene are written, if its unknowns were chosen within it;
   /// 0: the scene is taken as it stands.
   double precision = 0.0;
+  /// What rows that depend on each other within it may disagree by, and given velocities by what they allow: a loop has
+  /// some ten joints, each off by the precision.
+  double disagreement() const { return 16.0 * precision; }
   Mobility mobility;
   std::vector<std::string> notes;  ///< choices that the plan made where the scene leaves them open, in words
 

@@ -1,7 +1,9 @@
 #pragma once
 /// One of the linear solvers behind a common interface, so that a caller can store it without a template.
+#include <span>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "bough/solve/augmented.hpp"
 #include "bough/solve/hierarchical.hpp"
@@ -103,6 +105,23 @@ class AnySolver {
   /// and where it is not determined.
   std::vector<int> blocks_not_unique() const {
     return std::visit([](auto& s) { return s.blocks_not_unique(); }, solver_);
+  }
+  /// The interfaces of the forms that have a tree of them, as of Hierarchical; of others none.
+  std::vector<InterfaceReport> interfaces(const tree::Walker& walker, int widest, bool keeps_matrices = false) {
+    if (auto* s = std::get_if<Augmented>(&solver_)) return s->interfaces(widest, keeps_matrices);
+    if (auto* s = std::get_if<Hierarchical>(&solver_)) return s->interfaces(walker, widest, keeps_matrices);
+    return {};
+  }
+  /// Scales of columns and of rows of the forms that have interfaces; of others none.
+  std::span<const double> column_scale() const {
+    if (const auto* s = std::get_if<Augmented>(&solver_)) return s->column_scale();
+    if (const auto* s = std::get_if<Hierarchical>(&solver_)) return s->column_scale();
+    return {};
+  }
+  std::span<const double> row_scale() const {
+    if (const auto* s = std::get_if<Augmented>(&solver_)) return s->row_scale();
+    if (const auto* s = std::get_if<Hierarchical>(&solver_)) return s->row_scale();
+    return {};
   }
   /// The hierarchical solver, or null if another one is stored.
   const Hierarchical* hierarchical() const { return std::get_if<Hierarchical>(&solver_); }

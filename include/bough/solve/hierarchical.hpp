@@ -34,6 +34,10 @@ class Hierarchical {
   std::span<const ElementBatch> batches() const;
   void rescale();
 
+  /// Factorizations for which the sizes serve that are measured where a solution is checked: matrices whose sizes have
+  /// drifted get new scales in the next factorization.
+  static constexpr std::int64_t measurement_serves = 8;
+
   /// The visits of the walks. They do not change.
   SolverVisits visits() const;
 

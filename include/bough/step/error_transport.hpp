@@ -33,8 +33,8 @@ class ErrorTransport {
   void restart(double time);
   /// Adds the error that `local` measured last, `steps` times: that of steps which followed each other. Of an error
   /// that changes from step to step, as that of a vibration does, only so many of its steps are counted as keep its
-  /// sign.
-  void add(const State& state, const LocalError& local, double steps);
+  /// sign. Returns the largest displacement added, as `size`.
+  double add(const State& state, const LocalError& local, double steps);
 
   /// Adds a change of velocities that is `duration` [s] times the accelerations of the nodes, of what the path and the
   /// rotation need as well as of the speed, and round-off, in directions that look random.

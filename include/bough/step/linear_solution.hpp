@@ -137,8 +137,7 @@ class LinearSolution {
     long factors = 0;        ///< made so far
     long next_measured = 0;  ///< number of factors after which sizes are measured again
   };
-  /// Factors for which the sizes serve that Hierarchical measures where it checks a solution.
-  static constexpr long measurement_serves = 8;
+  static constexpr long measurement_serves = solve::Hierarchical::measurement_serves;
   void note_scales(bool are_new);
   void note_checked();
   void factor_again();

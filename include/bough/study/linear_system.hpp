@@ -23,6 +23,9 @@ struct InterfaceSystem {
   std::vector<double> penalty;        ///< P, diagonal, as a whole matrix
   std::vector<double> flexibility;    ///< F = (S + P)^-1
   double condition = 1.0;             ///< of P^1/2 F P^1/2
+
+  /// Comment lines for a file of one of the matrices, "F", "S" or "P", in this step.
+  std::vector<std::string> comments(const std::string& matrix, long step) const;
 };
 
 /// Consecutive unknowns of one owner: the increment eta of a node's frame (H <- H exp(eta)), or the multipliers of a
@@ -32,11 +35,6 @@ struct UnknownBlock {
   std::string components;
   int first = 0, count = 0;
 };
-
-struct LinearSystem;
-/// Comment lines for a file of one matrix of an interface, F, S or P.
-std::vector<std::string> comments_of(const InterfaceSystem& interface, const LinearSystem& system,
-                                     const std::string& matrix);
 
 /// A x = b of the first Newton iteration of a step: A the tangent at the predicted state, b minus the residual there.
 /// SI units, increments in the nodes' own axes.

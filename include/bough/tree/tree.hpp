@@ -7,6 +7,7 @@
 /// of its separator. The last front of a sub-domain is its top: the boundary blocks of that front are the interface
 /// of the sub-domain. Sub-domains and fronts are numbered in postorder, so every subtree is a contiguous range that
 /// ends at its top.
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -100,6 +101,11 @@ struct Tree {
   int num_subdomains() const { return static_cast<int>(subdomains.size()); }
   SubdomainId root() const { return num_subdomains() - 1; }
   std::int64_t num_unknowns() const { return unknown_begin.back(); }
+  int block_of_unknown(std::int64_t unknown) const {
+    return static_cast<int>(std::upper_bound(unknown_begin.begin(), unknown_begin.end(), unknown) -
+                            unknown_begin.begin()) -
+           1;
+  }
   std::span<const int> blocks(const Front& f) const;  ///< eliminated, then boundary.
   std::span<const int> boundary_blocks(const Front& f) const;
   std::span<const FrontId> children(const Front& f) const;

@@ -145,7 +145,7 @@ FactorStatus Monolithic::factor(const tree::Walker& /*walker*/) {
   for (Eigen::Index k = 0; k < s.sparse.matrix().nonZeros(); ++k) {
     if (std::isfinite(s.sparse.matrix().valuePtr()[k])) continue;
     s.status.outcome = FactorOutcome::not_finite;
-    s.status.block = block_of_unknown(s.tree, s.sparse.matrix().innerIndexPtr()[k]);
+    s.status.block = s.tree.block_of_unknown(s.sparse.matrix().innerIndexPtr()[k]);
     return s.status;
   }
   const bool was_regularised = std::exchange(s.regularised, false);
@@ -159,7 +159,7 @@ FactorStatus Monolithic::factor(const tree::Walker& /*walker*/) {
 #ifdef BOUGH_HAS_KLU
     const int column = s.common.singular_col;
     if (column >= 0 && column < static_cast<int>(s.rhs.size())) {
-      s.status.block = block_of_unknown(s.tree, column);
+      s.status.block = s.tree.block_of_unknown(column);
       s.status.local = static_cast<int>(column - s.tree.unknown_begin[at(s.status.block)]);
     }
 #endif

@@ -12,13 +12,6 @@
 
 namespace bough::solve {
 
-/// The block of an unknown.
-inline int block_of_unknown(const tree::Tree& tree, std::int64_t unknown) {
-  return static_cast<int>(std::upper_bound(tree.unknown_begin.begin(), tree.unknown_begin.end(), unknown) -
-                          tree.unknown_begin.begin()) -
-         1;
-}
-
 /// The first block with an entry that is not finite, or -1.
 inline int find_not_finite_block(const ElementStore& elements) {
   for (int e = 0; e < elements.graph().num_elements(); ++e) {
@@ -60,7 +53,7 @@ void solve_and_refine(const tree::Walker& walker, ElementStore& elements, const 
   }
   if (rhs_size > 0.0 && size > 0.0) {
     report.growth = size / rhs_size;
-    report.growth_block = block_of_unknown(elements.tree(), static_cast<std::int64_t>(largest));
+    report.growth_block = elements.tree().block_of_unknown(static_cast<std::int64_t>(largest));
   }
   if (check) {
     auto errors = elements.eval_residual(walker, scales, w.x.data(), w.rhs.data(), w.residual.data());

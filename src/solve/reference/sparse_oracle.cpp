@@ -188,7 +188,7 @@ FactorStatus SparseOracle::factor(const tree::Walker& /*walker*/) {
   s.status.deficiency = -1;
   if (!factored || s.eval_growth(largest) > singular_growth) {
     s.status.outcome = FactorOutcome::singular;
-    s.status.block = block_of_unknown(s.tree, static_cast<std::int64_t>(largest));
+    s.status.block = s.tree.block_of_unknown(static_cast<std::int64_t>(largest));
     s.status.local = static_cast<int>(static_cast<std::int64_t>(largest) - s.tree.unknown_begin[at(s.status.block)]);
   }
   return s.status;
