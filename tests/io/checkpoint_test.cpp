@@ -19,11 +19,18 @@ namespace fs = std::filesystem;
 const records::HistoryHeader header{{"tip.x", "tip.y"}};
 const RunOrigin origin{"scene.json", "0123", {"/a=1"}, "commit", "program"};
 
+records::StoredState state_at(double time, double x) {
+  records::StoredState state;
+  state.time = time;
+  state.parts.push_back({.name = "tip", .position = {x, 0.0, 0.0}});
+  return state;
+}
+
 void record(RunDirectory& run, int begin, int end) {
   for (int k = begin; k < end; ++k) {
     run.row({0.1 * k, 0.1, 3, {1.0 / (k + 1), -k / 3.0}});
     if (k % 3 == 0) run.motion(sample_frame(0.1 * k));
-    if (k % 3 == 0) run.state({.time = 0.1 * k, .parts = {{.name = "tip", .position = {1.0 / (k + 1), 0.0, 0.0}}}});
+    if (k % 3 == 0) run.state(state_at(0.1 * k, 1.0 / (k + 1)));
     (void)run.is_checkpoint_due(0.1 * k, false);
   }
 }
@@ -160,17 +167,14 @@ TEST_F(Checkpoints, of_a_run_that_has_ended_are_gone_and_it_is_known_to_have_end
 }
 
 TEST_F(Checkpoints, are_found_by_time_as_states_are) {
-  const auto state_at = [](double time) {
-    records::Archive archive;
-    records::StoredState state{.time = time, .parts = {{.name = "tip"}}};
-    archive(state);
-    return archive.bytes() + "the rest";
-  };
+  records::Archive archive;
+  records::StoredState state = state_at(0.4, 0.2);
+  archive(state);
   RunDirectory run(place, "1", origin, false, {1e9});
   run.begin(header);
   run.parts({});
   record(run, 0, 5);
-  run.checkpoint(state_at(0.4));
+  run.checkpoint(archive.bytes() + "the rest");
   record(run, 5, 6);
   std::vector<std::string> skipped;
   EXPECT_EQ(find_state(place, 0.4, skipped).file.filename(), "checkpoint.1");
@@ -184,7 +188,9 @@ TEST_F(Checkpoints, are_found_by_time_as_states_are) {
     EXPECT_NE(std::string(told.what()).find("there are 0, 0.3"), std::string::npos) << told.what();
   }
   run.end(sample_summary());
-  change("../out/states.bin", [](std::string& t) { t.back() = static_cast<char>(t.back() ^ 1); });
+  std::string text = text_of(place / "states.bin");
+  text.back() = static_cast<char>(text.back() ^ 1);
+  std::ofstream(place / "states.bin", std::ios::binary) << text;
   EXPECT_EQ(find_state(place, std::nullopt, skipped).state.time, 0.0) << "the last one that is whole";
   ASSERT_EQ(skipped.size(), 1u);
   EXPECT_NE(skipped[0].find("is damaged"), std::string::npos) << skipped[0];

@@ -2,7 +2,7 @@
 sanitizer. Needs the test program of preset tsan:
 
     sh cmake/build_tsan_tbb.sh && cmake --preset tsan && cmake --build build/tsan --target test_run_threads
-    python3 tests/tools/campaign --program build/release/bough races --races-test build/tsan/test_run_threads"""
+    python3 tests/tools/campaign --program build/release/bough races --races-test build/tsan/tests/test_run_threads"""
 import os
 import pathlib
 import re
