@@ -286,8 +286,9 @@ std::exception_ptr RunDirectory::commit_files() {
   attempt("history.csv", [&] { commit(*history_); });
   if (twin_->has_begun()) attempt("history.npy", [&] { commit(*twin_); });
   attempt("columns.json", [&] {
-    write_file(folder_->staging() / "columns.json", columns_, Durability::soon);
+    // Listed in any case: the same text has stood there since the run began.
     list({"columns.json", columns_.size(), digest_of(columns_)});
+    write_file(folder_->staging() / "columns.json", columns_, Durability::soon);
   });
   if (motion_) attempt("motion.bin", [&] { commit(*motion_); });
   if (states_->has_begun()) attempt("states.bin", [&] { commit(*states_); });
