@@ -90,11 +90,8 @@ std::optional<FoundState> read_at(const Place& place) try {
   return std::nullopt;
 }
 
-std::string number(double x) {
-  std::string text;
-  append_number(text, x);
-  return text;
-}
+/// With the digits by which times are told apart.
+std::string number(double x) { return rounded_text(x, 10); }
 
 /// "There are 0.1, 0.2 and 0.3": the nearest ones, in the order of time.
 std::string nearest_of(const std::vector<FoundState>& whole, const std::vector<Place>& places, double time) {

@@ -108,7 +108,7 @@ class Archive {
   }
   template <class T>
   void field(std::optional<T>& x) {
-    present(x, [&x] {
+    present(x, [&] {
       if constexpr (std::is_default_constructible_v<T>)
         x.emplace();
       else
