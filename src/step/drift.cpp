@@ -151,5 +151,6 @@ void find_frames(const DriftChoice<G>& choice, const NodesOn<G>& nodes, const No
   template void find_frames<G>(const DriftChoice<G>&, const NodesOn<G>&, const NodeOrder&, \
                                std::vector<typename G::template Translation<double>>&);
 BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
+#undef BOUGH_INSTANTIATE
 
 }  // namespace bough::step

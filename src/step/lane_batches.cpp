@@ -280,5 +280,6 @@ void LaneBatches<G>::evaluate_as(const solve::ElementBatch& batch, const Slot& s
 
 #define BOUGH_INSTANTIATE(G) template class LaneBatches<G>;
 BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
+#undef BOUGH_INSTANTIATE
 
 }  // namespace bough::step

@@ -505,5 +505,6 @@ double largest_change(std::span<const PairLanes> pairs, const NodeChange<G>* cha
                                               NodesOn<G>&, const NodeOrder&, std::size_t, std::size_t, Misses*);       \
   template double largest_change<G>(std::span<const PairLanes>, const NodeChange<G>*);
 BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE)
+#undef BOUGH_INSTANTIATE
 
 }  // namespace bough::step

@@ -124,7 +124,7 @@ class Archive {
       std::size_t k = 0;
       ((k++ == index ? static_cast<void>(x.template emplace<T>()) : void()), ...);
     }
-    std::visit([this](auto& kind) { field(kind); }, x);
+    std::visit([this](auto& kind) { this->field(kind); }, x);
   }
   template <class A, class B>
   void field(std::pair<A, B>& x) {
