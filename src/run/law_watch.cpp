@@ -14,7 +14,9 @@ namespace bough::run {
 namespace {
 
 constexpr std::size_t most_stretches = 4096;
-constexpr long samples = 512;                ///< of a law over the run, for the size of its changes
+constexpr long samples = 512;  ///< of a law over the run, for the size of its changes
+constexpr long most_samples = 1L << 17;
+constexpr long most_parts = 4096;            ///< of a step that does not see a law
 constexpr double of_level = 1e-3;            ///< changes below this part of the values do not count
 constexpr double negligible = 0.01;          ///< of the impulse: bounds below it are not looked at more closely
 constexpr double missed_share = 0.05;        ///< of the impulse: above this the steps do not see the law
@@ -90,8 +92,7 @@ class Comparison {
 
 /// Integral over the run of the distance of a law from the straight line between its ends, by samples.
 double impulse_of(const laws::Law& law, double begin, double end, long steps) {
-  constexpr long most = 1L << 17;
-  const long count = std::clamp(steps, samples, most);  // what the steps see counts
+  const long count = std::clamp(steps, samples, most_samples);  // what the steps see counts
   const auto value = [&](double t) {
     const double v = law.at(t).value;
     return std::isfinite(v) ? v : 0.0;
@@ -108,8 +109,7 @@ double impulse_of(const laws::Law& law, double begin, double end, long steps) {
 
 /// Size of the changes of a law over the run, by samples.
 double range_of(const laws::Law& law, double begin, double end, long steps) {
-  constexpr long most = 1L << 17;
-  const long count = std::clamp(steps, samples, most);
+  const long count = std::clamp(steps, samples, most_samples);
   const double width = (end - begin) / static_cast<double>(count);
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (long k = 0; k <= count; ++k) {
@@ -148,7 +148,6 @@ long parts_needed(Comparison& of, const Piece& p) {
               of.value(k + 1 == parts ? end : p.begin + static_cast<double>(k + 1) * h, laws::Side::left));
     return sum;
   };
-  constexpr long most_parts = 4096;
   double before = sum_of(1);
   long least = 2;
   for (long parts = 2; parts <= most_parts; parts *= 2) {
@@ -162,7 +161,6 @@ long parts_needed(Comparison& of, const Piece& p) {
 
 /// The same with which straight lines keep within `distance` of it.
 long parts_needed_for_place(Comparison& of, const Piece& p, double distance) {
-  constexpr long most_parts = 4096;
   for (long parts = 2; parts < most_parts; parts *= 2) {
     const double h = p.step / static_cast<double>(parts);
     double most = 0.0;

@@ -28,9 +28,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A thread that waits looks again after some ten nanoseconds at first, and lets other programs have its processor after
-/// `most_alone`. A helper stays for `most_awake`: between the walks of a step some 10 to 1000 microseconds pass, and a
-/// thread that sleeps takes 50 of them to wake, or thousands on a virtual machine.
+/// A thread that waits looks again after some ten nanoseconds at first, and lets other programs have its processor
+/// after `most_alone`. A helper stays for `most_awake`: between the walks of a step some 10 to 1000 microseconds pass,
+/// and a thread that sleeps takes 50 of them to wake, or thousands on a virtual machine.
 constexpr auto most_alone = std::chrono::microseconds(50);
 constexpr auto most_awake = std::chrono::microseconds(2000);
 
@@ -71,8 +71,9 @@ class Failure {
   std::exception_ptr thrown_;
 };
 
-/// A list cut into consecutive shares, one for each thread or group of threads. A thread takes from its own share first,
-/// so that the same data mostly stay with one processor from walk to walk, and from the others' when that is empty.
+/// A list cut into consecutive shares, one for each thread or group of threads. A thread takes from its own share
+/// first, so that the same data mostly stay with one processor from walk to walk, and from the others' when that is
+/// empty.
 class Shares {
  public:
   explicit Shares(int members) : count_(std::min(members, most)) {}
@@ -219,8 +220,9 @@ struct Threads::State {
           state.helpers->wait();
           state.is_together = false;
         }
-      } end{*this};
+      };
       helpers.emplace();
+      const End end{*this};
       is_together = true;
       is_ending = false;
       body();

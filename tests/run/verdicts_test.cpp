@@ -76,7 +76,8 @@ TEST(Verdict, a_pulse_in_a_prescribed_place_is_told_beside_a_motion_that_steps_s
   const auto carried = [](const std::string& law) {
     return R"({"frames": [{"name": "table", "position": [{"expression": ")" + law + R"("}, 0, 0]}],
       "bodies": [{"name": "b", "kind": "point_mass", "mass": 1, "frame": "table"}],
-      "springs": [{"name": "s", "first": {"to": "table", "position": [-0.1, 0, 0]}, "second": "b", "stiffness": 100, "rest_length": 0.1}],
+      "springs": [{"name": "s", "first": {"to": "table", "position": [-0.1, 0, 0]}, "second": "b",
+                   "stiffness": 100, "rest_length": 0.1}],
       "sensors": [{"name": "x", "kind": "position", "at": "b"}],
       "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 1e-3}})";
   };
