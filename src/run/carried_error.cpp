@@ -121,7 +121,8 @@ std::optional<step::Trouble> CarriedError::carry(const step::State& state) {
 }
 
 double CarriedError::grows_in() const {
-  constexpr double sensitive = 30.0;  // a power of time makes 4 to 8 of the two halves of a run
+  constexpr double sensitive = 30.0;                      // a power of time makes 4 to 8 of the two halves of a run
+  if (unresolved_ > unresolved_share * all_) return 0.0;  // steps that do not resolve the motion let errors grow
   if (!(largest_early_ > 0.0) || !(largest_ > sensitive * largest_early_)) return 0.0;
   return 0.5 * duration_ / std::log(largest_ / largest_early_);
 }

@@ -55,10 +55,12 @@ class CarriedError {
   bool is_resolved() const {
     constexpr double out_of_step = 2.0;  // [rad]; an undamped vibration loses a sixth of its error by then
     const bool keeps_up = largest_ * detuned_ <= out_of_step * added_ || largest_ > added_;
-    return unresolved_ <= 0.1 * all_ && keeps_up;
+    return unresolved_ <= unresolved_share * all_ && keeps_up;
   }
 
  private:
+  static constexpr double unresolved_share = 0.1;  ///< of the duration: more of it tells nothing
+
   bool is_at_peak(const step::State& state);
   std::optional<step::Trouble> carry(const step::State& state);
   void add(const step::State& state, const step::LocalError& local, double steps);

