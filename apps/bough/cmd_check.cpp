@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "arguments.hpp"
+#include "bough/elements/coupling_kinds.hpp"
 #include "bough/io/read_frames.hpp"
 #include "bough/io/read_motion.hpp"
 #include "bough/io/read_scene.hpp"
@@ -43,7 +44,7 @@ void count(std::string& text, std::size_t number, const char* one, const char* m
 bool is_small(const scene::Scene& s) {
   constexpr std::size_t most = 5000;
   std::size_t parts = s.nodes.size() + s.bodies.size() + s.joints.size() + s.springs.size() + s.bushings.size() +
-                      s.point_loads.size() + s.line_loads.size() + s.frames.size();
+                      s.couplings.size() + s.point_loads.size() + s.line_loads.size() + s.frames.size();
   for (const scene::Beam& b : s.beams)
     parts += static_cast<std::size_t>(b.elements) * static_cast<std::size_t>(b.order);
   return parts <= most;
@@ -81,6 +82,9 @@ int check(const CheckArguments& arguments) {
   for (const CountedList& list : counted_lists)
     if (const auto written = file.counts.find(list.key); written != file.counts.end())
       count(parts, written->second, list.one, list.many);
+  for (const scene::CouplingKind* kind : elements::coupling_kinds())
+    if (const auto written = file.counts.find(kind->list); written != file.counts.end())
+      count(parts, written->second, kind->name, kind->list);
   std::cout << "ok:" << (parts.empty() ? " an empty scene" : parts) << "\n";
   return exit_done;
 }

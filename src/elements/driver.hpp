@@ -4,6 +4,7 @@
 #include "beam_tangent.hpp"
 #include "body_tangent.hpp"
 #include "bough/elements/evaluate.hpp"
+#include "jet_tangent.hpp"
 #include "joint_tangent.hpp"
 
 namespace bough::elements {

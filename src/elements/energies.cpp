@@ -1,6 +1,7 @@
 #include "bough/elements/energies.hpp"
 
 #include "bough/elements/beam_forces.hpp"
+#include "emit.hpp"
 #include "ports_from_inertial.hpp"
 
 namespace bough::elements {
@@ -97,6 +98,11 @@ void add_energies(const BushingOn<G, C>& e, const PortMotionOn<G, S>* p, const t
                   const SurroundingsOn<G, S>& around, const C&, EnergiesOn<G, S>& sum) {
   sum.strain = eval_strain_energy(e, p, around.laws);
 }
+template <IsCatalogued E, class G, class S>
+void add_energies(const E& e, const PortMotionOn<G, S>* p, const typename G::template Translation<S>&,
+                  const SurroundingsOn<G, S>&, const S&, EnergiesOn<G, S>& sum) {
+  sum.strain = eval_strain_energy(e, p);
+}
 template <class G, class S, class C>
 void add_energies(const JointOn<G, C>& e, const PortMotionOn<G, S>* p, const typename G::template Translation<S>&,
                   const SurroundingsOn<G, S>&, const C& turns, EnergiesOn<G, S>& sum) {
@@ -144,6 +150,9 @@ void eval_energies_lanes(const LaneElement<E>& e, const FieldOn<typename E::Grou
   BOUGH_INSTANTIATE_ENERGIES(BeamOn<G, 3>) \
   BOUGH_INSTANTIATE_ENERGIES(BeamOn<G, 4>)
 
+template <class E>
+constexpr auto functions_of_part = std::tuple{&eval_energies<E>, &eval_energies_lanes<E>};
+BOUGH_EMIT_FOR_CATALOGUE(functions_of_part)
 BOUGH_INSTANTIATE_BEAMS(motion::Se3)
 BOUGH_INSTANTIATE_BEAMS(motion::Se2)
 BOUGH_INSTANTIATE_POINTS(motion::Translations<3>)

@@ -1,4 +1,5 @@
 #include "bough/elements/beam_forces.hpp"
+#include "emit.hpp"
 #include "ports_from_inertial.hpp"
 
 namespace bough::elements {
@@ -88,50 +89,22 @@ Measures measure_beam(const Beam<N>& beam, const Field& field) {
 
 }  // namespace
 
-template <>
-Measures measure(const Beam<2>& e, const Field& field, const double*, double) {
-  return measure_beam(e, field);
-}
-template <>
-Measures measure(const Beam<3>& e, const Field& field, const double*, double) {
-  return measure_beam(e, field);
-}
-template <>
-Measures measure(const Beam<4>& e, const Field& field, const double*, double) {
-  return measure_beam(e, field);
-}
-template <>
-Measures measure(const LineLoad<2>& e, const Field& field, const double*, double) {
-  return measure_load(e, field);
-}
-template <>
-Measures measure(const LineLoad<3>& e, const Field& field, const double*, double) {
-  return measure_load(e, field);
-}
-template <>
-Measures measure(const LineLoad<4>& e, const Field& field, const double*, double) {
-  return measure_load(e, field);
-}
-template <>
-Measures measure(const PointLoad& e, const Field& field, const double*, double) {
-  return measure_load(e, field);
-}
-template <>
-Measures measure(const Spring& e, const Field& field, const double*, double) {
-  return measure_coupling(e, field);
-}
-template <>
-Measures measure(const Bushing& e, const Field& field, const double*, double) {
-  return measure_coupling(e, field);
-}
-template <>
-Measures measure(const RigidBody& e, const Field& field, const double*, double) {
-  PortMotion<double> p[1];
-  Vec3<double> anchor;
-  eval_ports_from_inertial(e, field, p, anchor);
-  Measures m;
-  add_ground_reaction(e, p, anchor, field, m);
-  return m;
+template <class E>
+Measures measure(const E& e, const Field& field, const double*, double) {
+  if constexpr (E::role == Role::beam) {
+    return measure_beam(e, field);
+  } else if constexpr (E::role == Role::load) {
+    return measure_load(e, field);
+  } else if constexpr (E::role == Role::coupling) {
+    return measure_coupling(e, field);
+  } else {
+    PortMotion<double> p[E::num_ports];
+    Vec3<double> anchor;
+    eval_ports_from_inertial(e, field, p, anchor);
+    Measures m;
+    add_ground_reaction(e, p, anchor, field, m);
+    return m;
+  }
 }
 
 template <>
@@ -167,5 +140,9 @@ Vec6<double> eval_reaction(const Joint& joint, const Field& field, const double*
   for (int k = 0; k < 6; ++k) wrench[k] = -out[6 + k];
   return wrench;
 }
+
+template <class E>
+constexpr auto functions_of_part = &measure<E>;
+BOUGH_EMIT_FOR_ALL(functions_of_part)
 
 }  // namespace bough::elements

@@ -1,5 +1,7 @@
 #include "bough/elements/momentum.hpp"
 
+#include "emit.hpp"
+
 namespace bough::elements {
 
 template <class E>
@@ -221,5 +223,9 @@ struct TurningElementsOn {
   BOUGH_INSTANTIATE_MOMENTUM(TurningElementsOn<G>::Load4)
 BOUGH_INSTANTIATE_TURNING_MOMENTA(motion::Se3)
 BOUGH_INSTANTIATE_TURNING_MOMENTA(motion::Se2)
+
+template <class E>
+constexpr auto functions_of_part = std::tuple{&evaluate_momentum<E>, &add_elastic_mass<E>, &add_gyroscopic<E>};
+BOUGH_EMIT_FOR_CATALOGUE(functions_of_part)
 
 }  // namespace bough::elements

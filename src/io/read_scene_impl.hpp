@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -78,6 +79,7 @@ class Converter : private ValueConverter {
   void joint(const Value& v, const std::string& at);
   void spring(const Value& v, const std::string& at);
   void bushing(const Value& v, const std::string& at);
+  void coupling(const scene::CouplingKind& kind, const Value& v, const std::string& at);
 
   // Signals (read_scene_signals.cpp).
   void find_signal_names();
@@ -150,7 +152,10 @@ class Converter : private ValueConverter {
 
   std::string own_name(const Value& v, const char* stem);
   /// Converts all items of a list; those with faults become defective.
-  void each(const char* list, void (Converter::*read)(const Value&, const std::string&));
+  void each(const char* list, const std::function<void(const Value&, const std::string&)>& read);
+  void each(const char* list, void (Converter::*read)(const Value&, const std::string&)) {
+    each(list, [this, read](const Value& v, const std::string& at) { (this->*read)(v, at); });
+  }
   template <class T>
   void add(std::vector<T>& list, const char* name, T item, const std::string& at) {
     if (faults.size() != faults_before_ || left_out_) return;

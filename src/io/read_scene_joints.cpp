@@ -200,4 +200,23 @@ void Converter::bushing(const Value& v, const std::string& at) {
   add(scene.bushings, "bushings", std::move(b), at);
 }
 
+void Converter::coupling(const scene::CouplingKind& kind, const Value& v, const std::string& at) {
+  scene::Coupling c;
+  c.kind = &kind;
+  c.name = v.find("name")->text;
+  c.first = attachment(*v.find("first"), at + "/first");
+  c.second = attachment(*v.find("second"), at + "/second");
+  for (const scene::CouplingField& field : kind.fields) {
+    const Value& given = *v.find(field.name);  // required, or with a default of the schema
+    if (field.type == scene::CouplingFieldType::number) {
+      c.values.push_back(given.number);
+      continue;
+    }
+    const Vec3 direction = vector(given);
+    if (!(norm(direction) > least_axis)) fault(at + "/" + field.name, "a direction has a length other than 0");
+    c.values.insert(c.values.end(), direction.v, direction.v + 3);
+  }
+  add(scene.couplings, "couplings", std::move(c), at);
+}
+
 }  // namespace bough::io

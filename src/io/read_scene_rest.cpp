@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "bough/elements/coupling_kinds.hpp"
 #include "bough/laws/formula.hpp"
 #include "bough/laws/make_law.hpp"
 #include "bough/scene/components.hpp"
@@ -285,14 +286,14 @@ void Converter::settings() {
     for (const Value& name : w->items) scene.without.push_back(name.text);
 }
 
-void Converter::each(const char* list, void (Converter::*read)(const Value&, const std::string&)) {
+void Converter::each(const char* list, const std::function<void(const Value&, const std::string&)>& read) {
   const Value* items = root_.find(list);
   if (items == nullptr || !items->is(JsonKind::array)) return;
   for (std::size_t i = 0; i < items->items.size(); ++i) {
     const Value& v = items->items[i];
     faults_before_ = faults.size();
     left_out_ = !v.sound;
-    if (v.sound) (this->*read)(v, pointer_to(pointer_to("", list), std::to_string(i)));
+    if (v.sound) read(v, pointer_to(pointer_to("", list), std::to_string(i)));
     if (faults.size() == faults_before_ && !left_out_) continue;
     const Value* name = v.is(JsonKind::object) ? v.find("name") : nullptr;
     if (name == nullptr || !name->is(JsonKind::string)) continue;
@@ -328,6 +329,8 @@ void Converter::convert() {
   each("springs", &Converter::spring);
   each("actuators", &Converter::actuator);
   each("bushings", &Converter::bushing);
+  for (const scene::CouplingKind* kind : elements::coupling_kinds())
+    each(kind->list, [&](const Value& v, const std::string& at) { coupling(*kind, v, at); });
   each("loads", &Converter::load);
   each("motions", &Converter::motion);
   each("initial_velocities", &Converter::initial_velocity);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "bough/elements/coupling_kinds.hpp"
 #include "bough/scene/components.hpp"
 #include "schema_parts.hpp"
 
@@ -216,6 +217,26 @@ void add_joints(RuleTable& t) {
                           "Factor of the stiffness that changes [-]; damping is as given. Default: 1.")}));
 }
 
+/// The kinds of the catalogue, as their elements declare them.
+void add_catalogue(RuleTable& t, std::vector<Field>& lists) {
+  for (const scene::CouplingKind* kind : elements::coupling_kinds()) {
+    std::vector<Field> fields = {name_field(), need("first", named_rule("attachment"), kind->first),
+                                 need("second", named_rule("attachment"), kind->second)};
+    for (const scene::CouplingField& field : kind->fields) {
+      const bool is_number = field.type == scene::CouplingFieldType::number;
+      std::string about = field.about;
+      about.pop_back();  // the full stop
+      about +=
+          is_number ? std::string(" [") + field.unit + "]." : ", in the ground at the start; the first carries it.";
+      const RuleRef rule = is_number ? number_rule("", field.low, field.is_low_open) : named_rule("vector");
+      fields.push_back(*field.standard == 0 ? need(field.name, rule, lasting(about).c_str())
+                                            : may(field.name, rule, lasting(about).c_str(), field.standard));
+    }
+    t.named[kind->name] = made(object_of(kind->about, std::move(fields)));
+    lists.push_back(may(kind->list, array_rule("", named_rule(kind->name)), kind->about, "[]"));
+  }
+}
+
 void add_loads(RuleTable& t) {
   const RuleRef free_name = name_rule("");
   const std::vector<Field> common = {may("name", free_name, "Its name. Default: numbered."),
@@ -285,7 +306,7 @@ Rule sensor_rule(const scene::SensorType& type) {
     fields.push_back(may("at", named_rule("attachment"),
                          "A node or body at its interface, or a point of it. Default: the resultant of all."));
   } else if (type.of == SensorOf::part) {
-    fields.push_back(need("of", reference, "The prescribed motion, spring, bushing or load."));
+    fields.push_back(need("of", reference, "The prescribed motion, spring, bushing, other coupling or load."));
   } else if (type.of != SensorOf::whole) {
     fields.push_back(need("joint", reference, "The joint."));
   }
@@ -403,28 +424,29 @@ RuleTable make_scene_rules() {
   const auto list = [](Literal key, Literal item, Literal about) {
     return may(key, array_rule("", named_rule(item)), about, "[]");
   };
-  const std::vector<Field> lists = {list("frames", "frame", "Frames, fixed or moving."),
-                                    list("materials", "material", "Materials."),
-                                    list("sections", "section", "Beam sections."),
-                                    list("nodes", "node", "Nodes."),
-                                    list("bodies", "body", "Rigid bodies and point masses."),
-                                    list("beams", "beam", "Beams."),
-                                    list("joints", "joint", "Joints."),
-                                    list("springs", "spring", "Springs and dampers between points."),
-                                    list("actuators", "actuator", "Servos with a lag and a limit."),
-                                    list("bushings", "bushing", "Bushings."),
-                                    list("loads", "load", "Loads."),
-                                    list("motions", "motion", "Prescribed motions."),
-                                    list("initial_velocities", "initial_velocity", "Velocities at the start."),
-                                    list("signals", "signal", "Numbers that change with the motion."),
-                                    list("sensors", "sensor", "What is measured."),
-                                    list("expected", "expected", "Figures the run has to meet."),
-                                    list("measures", "measure", "Figures of the run, columns of batches and sweeps.")};
+  std::vector<Field> lists = {list("frames", "frame", "Frames, fixed or moving."),
+                              list("materials", "material", "Materials."),
+                              list("sections", "section", "Beam sections."),
+                              list("nodes", "node", "Nodes."),
+                              list("bodies", "body", "Rigid bodies and point masses."),
+                              list("beams", "beam", "Beams."),
+                              list("joints", "joint", "Joints."),
+                              list("springs", "spring", "Springs and dampers between points."),
+                              list("actuators", "actuator", "Servos with a lag and a limit."),
+                              list("bushings", "bushing", "Bushings."),
+                              list("loads", "load", "Loads."),
+                              list("motions", "motion", "Prescribed motions."),
+                              list("initial_velocities", "initial_velocity", "Velocities at the start."),
+                              list("signals", "signal", "Numbers that change with the motion."),
+                              list("sensors", "sensor", "What is measured."),
+                              list("expected", "expected", "Figures the run has to meet."),
+                              list("measures", "measure", "Figures of the run, columns of batches and sweeps.")};
+  add_catalogue(t, lists);
   add_expansion_rules(t, lists);
   t.has_formulas = true;
   Rule root = object_of(
       "A bough scene. SI units and radians throughout. Things are named and refer to each other by name: frames, "
-      "nodes, bodies, beams, joints, springs, bushings, loads and motions share one set of names; "
+      "nodes, bodies, beams, joints, springs, bushings, other couplings, loads and motions share one set of names; "
       "materials, sections, sensors and signals have their own. Axis 1 of a section runs along the beam; section "
       "resultants are "
       "(N, Q2, Q3, T, M2, M3). Quaternions have the scalar first. A reaction is the wrench "

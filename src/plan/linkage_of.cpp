@@ -186,14 +186,27 @@ void SceneLinkage::add_stiffness() {
     if (!a || !b || edge.first == edge.second) continue;
     double most = 0.0;
     for (const double x : u.stiffness.m) most = std::max(most, std::abs(x));
-    for (int i = 0; i < 6 && most > 0.0; ++i) {
-      Twist row = Twist::Zero();
-      for (int k = 0; k < 3; ++k)
-        row += u.stiffness(i, k) * linkage.along(axis_of(*a, k), b->x) +
-               u.stiffness(i, k + 3) * Linkage::about(axis_of(*a, k));
-      if (row.norm() > 0.0) edge.rows.push_back(row.normalized());
-    }
+    if (most > 0.0) add_rows(edge, u.stiffness, *a, b->x);
     linkage.add(std::move(edge));
+  }
+  for (const scene::Coupling& c : scene_.couplings) {
+    const auto a = poses_.of(c.first), b = poses_.of(c.second);
+    LinkEdge edge{part_of(c.first.to), part_of(c.second.to), c.name, {}, Vec3d::zero(), false};
+    if (!a || !b || edge.first == edge.second) continue;
+    add_rows(edge, c.kind->stiffness(c, *a, *b), *b, b->x);
+    linkage.add(std::move(edge));
+  }
+}
+
+/// The rows of a stiffness in the axes of `frame`, of forces at x, as rows that hold.
+void SceneLinkage::add_rows(LinkEdge& edge, const motion::Mat6<double>& stiffness, const motion::Frame<double>& frame,
+                            const Vec3d& x) {
+  for (int i = 0; i < 6; ++i) {
+    Twist row = Twist::Zero();
+    for (int k = 0; k < 3; ++k)
+      row += stiffness(i, k) * linkage.along(axis_of(frame, k), x) +
+             stiffness(i, k + 3) * Linkage::about(axis_of(frame, k));
+    if (row.norm() > 0.0) edge.rows.push_back(row.normalized());
   }
 }
 
@@ -205,19 +218,25 @@ void SceneLinkage::add_point_masses() {
     std::vector<Vec3d> met;
   };
   std::unordered_map<std::string, Use> uses;
+  const auto look_at = [&](const scene::Attachment& a, bool turns) {
+    const auto use = uses.find(a.to);
+    if (use == uses.end()) return;
+    use->second.feels |= turns;
+    if (length_of(a.offset.x) > 0.0) use->second.met.push_back(a.offset.x);
+  };
   const auto look = [&](const auto& item, bool turns) {
-    for (const scene::Attachment* a : {&item.first, &item.second}) {
-      const auto use = uses.find(a->to);
-      if (use == uses.end()) continue;
-      use->second.feels |= turns;
-      if (length_of(a->offset.x) > 0.0) use->second.met.push_back(a->offset.x);
-    }
+    look_at(item.first, turns);
+    look_at(item.second, turns);
   };
   for (const scene::Body& b : scene_.bodies)
     if (b.is_point_mass) uses.emplace(b.name, Use{});
   for (const scene::Joint& j : scene_.joints) look(j, !scene::type_of(j.kind).joins_points());
   for (const scene::Spring& s : scene_.springs) look(s, false);
   for (const scene::Bushing& u : scene_.bushings) look(u, true);
+  for (const scene::Coupling& c : scene_.couplings) {
+    look_at(c.first, true);
+    look_at(c.second, !c.kind->pulls_at_point);
+  }
   for (const scene::Beam& beam : scene_.beams)
     for (const std::string* end : {&beam.start, &beam.end})
       if (const auto use = uses.find(*end); use != uses.end()) use->second.feels = true;

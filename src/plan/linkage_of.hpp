@@ -25,7 +25,7 @@ struct LinkageChoice {
   bool beams_are_rigid = true;  ///< false: beams are flexible and connect nothing
   /// Prescribed coordinates and motions that vary count as fixed, and so do rotations of point masses without effect.
   bool drives_hold = false;
-  bool stiffness_holds = false;  ///< springs, bushings and springs in joints count as rigid
+  bool stiffness_holds = false;  ///< springs, bushings, couplings and springs in joints count as rigid
   SignalsHold signals = SignalsHold::nothing;
   /// Every motion with inertia counts as held, so that motions without inertia remain. Beams that are not rigid then
   /// count as massive at all their nodes.
@@ -63,6 +63,8 @@ class SceneLinkage {
   void add_joint(const scene::Joint& j);
   void add_motion(const scene::PrescribedMotion& m);
   void add_stiffness();
+  void add_rows(LinkEdge& edge, const motion::Mat6<double>& stiffness, const motion::Frame<double>& frame,
+                const Vec3d& x);
   void add_signals();
   void add_reading(const scene::Signal& signal);
   void add_action(const std::string& place, const Vec3d& x, const Vec3d& force, const Vec3d& moment);

@@ -219,6 +219,20 @@ void Builder::add_couplings() {
     if (b.factor.node() != nullptr || !b.signal.empty()) e.factor = add_factor(b.factor, b.signal, b.name);
     add(e, b.name);
   }
+  for (const scene::Coupling& c : scene.couplings)
+    elements::for_each_catalogued([&]<class E>() {
+      if (c.kind != &elements::kind_of<E>) return;
+      E e;
+      e.ports[0] = port_at(c.first);
+      e.ports[1] = port_at(c.second);
+      const Mat3<double> first = initial_pose(e.ports[0]).R;
+      if (E::starts_aligned) {
+        e.ports[1].offset.R = e.ports[1].offset.R * lanes::transpose_times(initial_pose(e.ports[1]).R, first);
+        e.ports[1].has_offset = true;
+      }
+      elements::take_data(e, c.values.data(), first);
+      add(e, c.name);
+    });
   for (const scene::PointLoad& l : scene.point_loads) {
     elements::PointLoad e;
     e.ports[0] = port_at(l.at);

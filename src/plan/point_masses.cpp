@@ -22,13 +22,14 @@ using motion::Vec3;
 void Builder::find_points() {
   std::vector<bool> feels(plan.nodes.size(), false);  // a part acts on the node by more than forces at points
   std::vector<std::vector<Vec3<double>>> met(plan.nodes.size());  // attachment points apart from the node
+  const auto mark_port = [&](const Port& p, bool turns) {
+    if (p.node == elements::ground) return;
+    const auto node = static_cast<std::size_t>(p.node);
+    if (turns) feels[node] = true;
+    if (p.has_offset && lanes::dot(p.offset.x, p.offset.x) > 0.0) met[node].push_back(p.offset.x);
+  };
   const auto mark = [&](const auto& e, bool turns) {
-    for (const Port& p : e.ports) {
-      if (p.node == elements::ground) continue;
-      const auto node = static_cast<std::size_t>(p.node);
-      if (turns) feels[node] = true;
-      if (p.has_offset && lanes::dot(p.offset.x, p.offset.x) > 0.0) met[node].push_back(p.offset.x);
-    }
+    for (const Port& p : e.ports) mark_port(p, turns);
   };
   for_each_array(plan.elements, [&](const auto& array) {
     using E = typename std::decay_t<decltype(array)>::value_type;
@@ -46,6 +47,9 @@ void Builder::find_points() {
           return !motion::traits_of(effort.coordinate).is_between_points;
         });
         mark(e, turns || !motion::joins_points(std::span(e.rows, static_cast<std::size_t>(e.num_rows))));
+      } else if constexpr (elements::IsCatalogued<E>) {
+        mark_port(e.ports[0], true);
+        mark_port(e.ports[1], !E::pulls_at_point);
       } else
         mark(e, true);
     }

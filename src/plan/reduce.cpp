@@ -67,6 +67,12 @@ double coupling_of(const Mat6<double>& m, const Mat3<double>& axes) {
   return strongest;
 }
 
+/// Where a coupling acts, and its directions and axes in the ground.
+struct CouplingSets {
+  const Port (&ports)[2];
+  std::vector<Vec3<double>> directions, axes;
+};
+
 /// A set of motions, and the condition for elements to keep it: `against` returns the first reason against it.
 class Motion {
  public:
@@ -98,6 +104,19 @@ class Motion {
   Obstacle against(const elements::LineLoad<N>& e) {
     return against_wrench(e.wrench, e.follows ? b_.initial_pose(e.ports[0]).R : Mat3<double>::identity());
   }
+  /// A coupling of the catalogue keeps a set that has its places and directions.
+  template <elements::IsCatalogued E>
+  Obstacle against(const E& e) {
+    const Mat3<double> axes = b_.initial_pose(e.ports[0]).R;
+    CouplingSets sets{e.ports, {}, {}};
+    const auto look = [&](const auto& datum) {
+      constexpr scene::CouplingFieldType type = std::decay_t<decltype(datum)>::type;
+      if constexpr (type == scene::CouplingFieldType::direction) sets.directions.push_back(axes * (e.*datum.member));
+      if constexpr (type == scene::CouplingFieldType::axis) sets.axes.push_back(axes * (e.*datum.member));
+    };
+    std::apply([&](const auto&... data) { (look(data), ...); }, E::declared());
+    return against_coupling(sets);
+  }
   virtual Obstacle against_gravity() = 0;
   virtual Obstacle against_node(const NodePlan& node) = 0;
 
@@ -108,6 +127,7 @@ class Motion {
   virtual Obstacle against_beam(const Frame<double>* pose, int count, std::array<const Mat6<double>*, 3> section,
                                 const Vec6<double>* strain, int points, double length) = 0;
   virtual Obstacle against_wrench(const Vec6<double>& wrench, const Mat3<double>& axes) = 0;
+  virtual Obstacle against_coupling(const CouplingSets& coupling) = 0;
 
   /// Whether a difference from the set is more than the tolerance; notes it otherwise.
   bool exceeds(double difference, double scale = 1.0) {
@@ -238,6 +258,13 @@ class InPlane final : public Motion {
     if (exceeds(length_of(lanes::cross(moment, normal_)), length_of(moment))) return "its moment acts out of the plane";
     return std::nullopt;
   }
+  Obstacle against_coupling(const CouplingSets& coupling) override {
+    for (const Vec3<double>& d : coupling.directions)
+      if (exceeds(std::abs(lanes::dot(d, normal_)))) return "it acts out of the plane";
+    for (const Vec3<double>& a : coupling.axes)
+      if (exceeds(length_of(lanes::cross(a, normal_)))) return "it turns parts out of the plane";
+    return against_places(coupling.ports);
+  }
 
   template <int R, int C>
   static bool is_same(const lanes::Mat<double, R, C>& a, const lanes::Mat<double, R, C>& b) {
@@ -330,6 +357,14 @@ class OfPoints final : public Motion {
     if (length_of(angular(wrench)) > 0.0) return "it has a moment";
     return is_off(axes * linear(wrench)) ? Obstacle{"it acts off the line"} : std::nullopt;
   }
+  Obstacle against_coupling(const CouplingSets& coupling) override {
+    if (!coupling.axes.empty()) return "it holds rotations";
+    if (!coupling.directions.empty() && coupling.ports[0].node != elements::ground)
+      return "it turns with its first end";
+    for (const Vec3<double>& d : coupling.directions)
+      if (is_off(d)) return "it acts off the line";
+    return against_places(coupling.ports);
+  }
 
   std::optional<Vec3<double>> line_;
 };
@@ -414,8 +449,11 @@ std::optional<Vec3<double>> line_of(const Builder& b) {
     if (lanes::dot(r, r) > lanes::dot(far, far)) far = r;
   };
   for (const NodePlan& node : b.plan.nodes) look(node.pose.x);
-  for (const elements::Spring& e : array_of<elements::Spring>(b.plan.elements))
-    for (const Port& p : e.ports) look(b.initial_pose(p).x);
+  for_each_array(b.plan.elements, [&](const auto& array) {
+    if constexpr (std::decay_t<decltype(array)>::value_type::role == elements::Role::coupling)
+      for (const auto& e : array)
+        for (const Port& p : e.ports) look(b.initial_pose(p).x);
+  });
   const double length = length_of(far);
   if (!(length > 0.0)) return std::nullopt;
   return (1.0 / length) * far;

@@ -47,6 +47,12 @@ class Restriction {
       }
   }
   void vector(const Vec6<double>& x, Vector& y) const { y = restricted(x, B_); }
+  void unit(const Vec3<double>& x, typename G::template Translation<double>& y) const {
+    y = leading<G>(lanes::transpose_times(B_, x));
+  }
+  void axis(const Vec3<double>& x, lanes::Vec<double, 1>& y) const {
+    y[0] = lanes::transpose_times(B_, x)[2] > 0.0 ? 1.0 : -1.0;
+  }
   void wrench(const Vec6<double>& x, Vector& y, bool follows) const { y = restricted(x, follows ? B_ : inertial_); }
   void flag(bool x, bool& y) const { y = x; }
   void law(int x, int& y) const { y = x; }

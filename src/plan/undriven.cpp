@@ -119,10 +119,13 @@ class FreeMotions {
     const auto rests = [&](const scene::Attachment& a) { return is_still(motion_at(c, k, a).head<3>().norm()); };
     for (const scene::Spring& s : scene_.springs)
       if (!rests(s.first) || !rests(s.second)) return false;
-    for (const scene::Bushing& u : scene_.bushings)
-      if (!is_still(
-              (c.twist_of(linkage_.part_of(u.second.to), k) - c.twist_of(linkage_.part_of(u.first.to), k)).norm()))
-        return false;
+    const auto moves_apart = [&](const auto& coupling) {
+      return !is_still(
+          (c.twist_of(linkage_.part_of(coupling.second.to), k) - c.twist_of(linkage_.part_of(coupling.first.to), k))
+              .norm());
+    };
+    if (std::any_of(scene_.bushings.begin(), scene_.bushings.end(), moves_apart)) return false;
+    if (std::any_of(scene_.couplings.begin(), scene_.couplings.end(), moves_apart)) return false;
     for (const scene::PointLoad& l : scene_.point_loads) {
       const Twist t = motion_at(c, k, l.at);
       const bool has_moment = lanes::dot(l.moment, l.moment) > 0.0;

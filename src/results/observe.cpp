@@ -327,6 +327,7 @@ records::MotionParts make_parts(const scene::Scene& scene, const step::System& s
   for (const scene::Spring& s : scene.springs)
     kind_of[s.name] = !(s.damping > 0.0) ? "spring" : !(s.stiffness > 0.0) ? "damper" : "spring and damper";
   for (const scene::Bushing& b : scene.bushings) kind_of[b.name] = "bushing";
+  for (const scene::Coupling& c : scene.couplings) kind_of[c.name] = c.kind->name;
   for_each_link(plan, [&](const std::string& name, const Port&, const Port&) {
     const auto found = kind_of.find(name);
     parts.links.push_back({found != kind_of.end() ? found->second : "prescribed motion"});

@@ -63,6 +63,7 @@ bool is_free_to_turn(const scene::Scene& scene, const scene::Poses& poses, const
   };
   return scene.motions.empty() && std::none_of(scene.springs.begin(), scene.springs.end(), to_ground) &&
          std::none_of(scene.bushings.begin(), scene.bushings.end(), to_ground) &&
+         std::none_of(scene.couplings.begin(), scene.couplings.end(), to_ground) &&
          std::all_of(scene.joints.begin(), scene.joints.end(),
                      [&](const scene::Joint& j) { return allows(j, poses, spin); });
 }

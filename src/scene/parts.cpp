@@ -173,10 +173,10 @@ void scale_masses(scene::Scene& s, double factor) {
 
 void to_millimetres(scene::Scene& s) {
   const auto longer = [](Vec3& v) { v = 1e3 * v; };
-  if (!s.springs.empty() || !s.bushings.empty() || !s.point_loads.empty() || !s.line_loads.empty() ||
-      !s.motions.empty() || !s.frames.empty())
+  if (!s.springs.empty() || !s.bushings.empty() || !s.couplings.empty() || !s.point_loads.empty() ||
+      !s.line_loads.empty() || !s.motions.empty() || !s.frames.empty())
     throw std::invalid_argument(
-        "to_millimetres: springs, bushings, loads, prescribed motions and frames are not handled");
+        "to_millimetres: springs, bushings, couplings, loads, prescribed motions and frames are not handled");
   longer(s.gravity);
   for (scene::Node& n : s.nodes) longer(n.placement.pose.x);
   for (scene::Body& b : s.bodies) {

@@ -59,6 +59,7 @@ std::unordered_map<std::string_view, Thing> things_of(const Scene& scene) {
   add_all(things, scene.joints, ThingKind::joint);
   add_all(things, scene.springs, ThingKind::other);
   add_all(things, scene.bushings, ThingKind::other);
+  add_all(things, scene.couplings, ThingKind::other);
   add_all(things, scene.point_loads, ThingKind::other);
   add_all(things, scene.line_loads, ThingKind::other);
   add_all(things, scene.motions, ThingKind::other);

@@ -249,6 +249,7 @@ void check_names(ProblemList& list) {
   check_one_set(list, "joints", s.joints, things);
   check_one_set(list, "springs", s.springs, things);
   check_one_set(list, "bushings", s.bushings, things);
+  check_one_set(list, "couplings", s.couplings, things);
   check_one_set(list, "point_loads", s.point_loads, things);
   check_one_set(list, "line_loads", s.line_loads, things);
   check_one_set(list, "motions", s.motions, things);

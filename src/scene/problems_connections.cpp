@@ -171,7 +171,36 @@ void check_joints(ProblemList& list) {
   check_twins(list);
 }
 
+namespace {
+
+/// What the kind of a coupling says of its numbers; ends are checked as of all pairs.
+void check_catalogued(ProblemList& list, std::size_t i) {
+  const Coupling& c = list.scene.couplings[i];
+  if (c.kind == nullptr) return list.add("couplings", i, "kind", c.name, "this coupling has no kind");
+  check_pair(list, "couplings", i, c);
+  std::size_t wanted = 0;
+  for (const CouplingField& field : c.kind->fields) wanted += static_cast<std::size_t>(field.count());
+  if (c.values.size() != wanted)
+    return list.add("couplings", i, "values", c.name,
+                    std::string("a ") + c.kind->name + " has " + std::to_string(wanted) + " numbers, and " +
+                        std::to_string(c.values.size()) + " are given");
+  const double* value = c.values.data();
+  for (const CouplingField& field : c.kind->fields) {
+    if (field.type != CouplingFieldType::number) {
+      if (const double length = norm(Vec3{{value[0], value[1], value[2]}}); !(length > 0.0 && std::isfinite(length)))
+        list.add("couplings", i, field.name, "", "a direction has a length other than 0");
+    } else if (!std::isfinite(*value) || *value < field.low || (field.is_low_open && *value == field.low)) {
+      list.add("couplings", i, field.name, text_of(*value),
+               std::string("has to be ") + (field.is_low_open ? "more than " : "at least ") + text_of(field.low));
+    }
+    value += field.count();
+  }
+}
+
+}  // namespace
+
 void check_couplings(ProblemList& list) {
+  for (std::size_t i = 0; i < list.scene.couplings.size(); ++i) check_catalogued(list, i);
   for (std::size_t i = 0; i < list.scene.springs.size(); ++i) {
     const Spring& s = list.scene.springs[i];
     if (check_pair(list, "springs", i, s)) {

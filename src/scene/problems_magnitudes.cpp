@@ -81,6 +81,16 @@ void check_stiffness_sizes(ProblemList& list) {
     judge(list, "bushings", i, "stiffness", s.bushings[i].name, largest_entry(s.bushings[i].stiffness), stiffness);
     judge(list, "bushings", i, "damping", s.bushings[i].name, largest_entry(s.bushings[i].damping), damping);
   }
+  constexpr double odd = 1e20;
+  for (std::size_t i = 0; i < s.couplings.size(); ++i) {
+    const Coupling& c = s.couplings[i];
+    std::size_t at = 0;
+    for (const CouplingField& field : c.kind != nullptr ? c.kind->fields : std::span<const CouplingField>{}) {
+      if (field.type == CouplingFieldType::number && at < c.values.size())
+        judge(list, "couplings", i, field.name, c.name, std::abs(c.values[at]), {field.name, field.unit, odd});
+      at += static_cast<std::size_t>(field.count());
+    }
+  }
   for (std::size_t i = 0; i < s.joints.size(); ++i)
     for (std::size_t k = 0; k < s.joints[i].forces.size(); ++k) {
       const JointForce& f = s.joints[i].forces[k];

@@ -59,7 +59,7 @@ void check_coordinate(ProblemList& list, std::size_t i, const JointType& joint) 
   }
 }
 
-/// Names of prescribed motions, springs, bushings and loads. A spring with laws of its own is a strut.
+/// Names of prescribed motions, springs, bushings, couplings and loads. A spring with laws of its own is a strut.
 std::vector<std::string> parts_with_forces(const Scene& scene) {
   std::vector<std::string> names;
   const auto add_names = [&names](const auto& items) {
@@ -68,6 +68,7 @@ std::vector<std::string> parts_with_forces(const Scene& scene) {
   add_names(scene.motions);
   add_names(scene.springs);
   add_names(scene.bushings);
+  add_names(scene.couplings);
   add_names(scene.point_loads);
   add_names(scene.line_loads);
   for (const Joint& j : scene.joints)
@@ -109,7 +110,8 @@ void check_sensor(ProblemList& list, std::size_t i) {
     list.add("sensors", i, "frame", s.frame, "a reaction is given in the axes of the body or of a frame, not of both",
              "leave one of \"axes\" and \"frame\" out");
   if (is_of_part) {
-    list.check_known("sensors", i, "of", s.part, parts_with_forces(list.scene), "motion, spring, bushing or load");
+    list.check_known("sensors", i, "of", s.part, parts_with_forces(list.scene),
+                     "motion, spring, bushing, coupling or load");
     return;
   }
   const bool exists = list.check_reference("sensors", i, "joint", s.joint, list.joints, "joint");
@@ -364,6 +366,7 @@ void check_holding(ProblemList& list) {
   for (const Joint& j : s.joints) join(j.first.to, j.second.to, true);
   for (const Spring& p : s.springs) join(p.first.to, p.second.to, false);
   for (const Bushing& b : s.bushings) join(b.first.to, b.second.to, true);
+  for (const Coupling& c : s.couplings) join(c.first.to, c.second.to, false);
   for (const PrescribedMotion& m : s.motions) join(m.at.to, "ground", true);
   for (std::size_t i = 0; i < s.nodes.size(); ++i)
     if (used[i] == 0)

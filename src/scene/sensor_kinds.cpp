@@ -92,7 +92,7 @@ std::vector<SensorType> make_types() {
        energy,
        in("J", {""}),
        {},
-       "Of all beams, springs, bushings and springs of joints."},
+       "Of all beams, springs, bushings, other couplings and springs of joints."},
       {SensorKind::potential_energy,
        "potential_energy",
        whole,

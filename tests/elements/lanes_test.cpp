@@ -38,6 +38,12 @@ void vary_element(Bushing& e, Numbers& numbers) {
   vary(e.damping, numbers);
   vary(e.rest, numbers);
 }
+template <IsCatalogued E>
+void vary_element(E& e, Numbers& numbers) {
+  const auto change = [&](double, double& x) { x *= 1.0 + numbers.next(0.1); };
+  const NumbersOf visit(change);
+  E::visit_data(e, e, visit);
+}
 void vary_element(Joint& e, Numbers& numbers) {
   for (int k = 0; k < e.num_rows; ++k) vary(e.rows[k].constant, numbers);
   for (int k = 0; k < e.num_efforts; ++k) {

@@ -1,8 +1,10 @@
 #pragma once
 /// Elements of every type in general position: curved and twisted references, coupled sections, offsets, ports on the
 /// ground. All magnitudes are near one, so that one tolerance holds for forces and moments alike.
+#include <algorithm>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bough/elements/evaluate.hpp"
@@ -232,6 +234,28 @@ inline Sample<Bushing> driven_bushing_sample(Ends ends) {
   return s;
 }
 
+/// A coupling of the catalogue with any numbers that its kind allows, drawn until it is strained.
+template <IsCatalogued E>
+Sample<E> catalogued_sample(Ends ends) {
+  for (unsigned seed = 350;; ++seed) {
+    Numbers numbers(seed);
+    Sample<E> s;
+    s.name = std::string(E::words.name) + ", ends " + std::to_string(static_cast<int>(ends));
+    std::vector<double> values;
+    for (const scene::CouplingField& field : kind_of<E>.fields)
+      for (int i = 0; i < field.count(); ++i)
+        values.push_back(field.type == scene::CouplingFieldType::number
+                             ? std::max(field.low, -1.0) + 0.8 + numbers.next(0.5)
+                             : numbers.next());
+    take_data(s.element, values.data(), Mat3<double>::identity());
+    set_ports(s.element.ports, ends, numbers);
+    const Frame<double> first = numbers.frame(), second = numbers.frame();
+    place(s, {first, second}, numbers);
+    const PortMotion<double> at[2] = {{first, {}, {}}, {second, {}, {}}};
+    if (eval_strain_energy(s.element, at) > 0.02) return s;
+  }
+}
+
 inline ConstraintRow row_of(RowKind kind, int i = 0, int j = 0, int law = -1, double constant = 0.0) {
   ConstraintRow r;
   r.kind = kind;
@@ -307,6 +331,22 @@ inline Sample<Joint> undamped(Sample<Joint> s) {
   return s;
 }
 
+/// Without the one number whose absence leaves no forces that depend on velocities.
+template <IsCatalogued E>
+Sample<E> undamped(Sample<E> s) {
+  s.name += ", undamped";
+  const auto leave_out = [&](const auto& datum) {
+    if constexpr (std::decay_t<decltype(datum)>::type == scene::CouplingFieldType::number) {
+      const double value = std::exchange(s.element.*datum.member, 0.0);
+      if (looks_at_rates(s.element)) s.element.*datum.member = value;
+      return !looks_at_rates(s.element);
+    }
+    return false;
+  };
+  std::apply([&](const auto&... data) { static_cast<void>((leave_out(data) || ...)); }, E::declared());
+  return s;
+}
+
 /// Calls check(sample) for all elements of all kinds.
 template <class Check>
 void for_all_beams(const Check& check) {
@@ -323,6 +363,10 @@ void for_all_couplings(const Check& check) {
     check(undamped(spring_sample(ends)));
     check(bushing_sample(ends));
     check(driven_bushing_sample(ends));
+    for_each_catalogued([&]<class E>() {
+      check(catalogued_sample<E>(ends));
+      check(undamped(catalogued_sample<E>(ends)));
+    });
   }
 }
 template <class Check>

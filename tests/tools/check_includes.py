@@ -16,7 +16,7 @@ USES = {
     "laws": [],
     "scene": ["motion", "laws"],
     "records": ["scene"],
-    "elements": ["motion"],
+    "elements": ["motion", "scene"],
     "plan": ["records", "elements", "blocks"],
     "io": ["plan"],
     "tree": ["blocks"],

@@ -6,6 +6,8 @@
 ///   number(x, y)         a scalar
 ///   matrix(x, y)         of a section or a body, in the axes of the first port
 ///   vector(x, y)         a strain or a twist, in the axes of the first port
+///   unit(x, y)           a unit vector of displacements, in the axes of the first port
+///   axis(x, y)           a unit vector of rotations, in the same axes
 ///   wrench(x, y, follows)  in the axes of the first port, or, of dead loads, in inertial axes
 ///   direction(x, y)      of a row or an effort of a joint
 ///  flag(x, y)           a value on which a kernel branches: equal in all lanes
@@ -29,6 +31,14 @@ class NumbersOf {
   template <class X, class Y>
   void vector(const X& x, Y& y) const {
     for (int i = 0; i < X::size(); ++i) each_(x[i], y[i]);
+  }
+  template <class X, class Y>
+  void unit(const X& x, Y& y) const {
+    vector(x, y);
+  }
+  template <class X, class Y>
+  void axis(const X& x, Y& y) const {
+    vector(x, y);
   }
   template <class X, class Y>
   void matrix(const X& x, Y& y) const {
@@ -68,6 +78,10 @@ class KindOf {
   void number(const X&, const Y&) const {}
   template <class X, class Y>
   void vector(const X&, const Y&) const {}
+  template <class X, class Y>
+  void unit(const X&, const Y&) const {}
+  template <class X, class Y>
+  void axis(const X&, const Y&) const {}
   template <class X, class Y>
   void matrix(const X&, const Y&) const {}
   template <class X, class Y>

@@ -9,6 +9,7 @@
 
 #include "bough/elements/beam_forces.hpp"
 #include "bough/elements/body.hpp"
+#include "bough/elements/catalogue.hpp"
 #include "bough/elements/joint.hpp"
 #include "bough/lanes/taylor.hpp"
 #include "bough/motion/compensated.hpp"

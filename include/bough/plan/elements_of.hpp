@@ -14,13 +14,20 @@ namespace bough::plan {
 struct NoElement {};
 template <class E>
 using ArrayOf = std::vector<std::conditional_t<elements::exists<E>, E, NoElement>>;
-/// The arrays of elements on the group G. An element has the same place in the arrays of all groups.
+namespace detail {
+template <class... Arrays, class... E>
+std::tuple<Arrays..., ArrayOf<E>...> add_arrays(std::tuple<Arrays...>*, std::tuple<E...>*);
+}  // namespace detail
+/// The arrays of elements on the group G, those of the catalogue last. An element has the same place in the arrays of
+/// all groups.
 template <class G>
-using ArraysOn =
-    std::tuple<ArrayOf<elements::BeamOn<G, 2>>, ArrayOf<elements::BeamOn<G, 3>>, ArrayOf<elements::BeamOn<G, 4>>,
-               ArrayOf<elements::RigidBodyOn<G>>, ArrayOf<elements::JointOn<G>>, ArrayOf<elements::SpringOn<G>>,
-               ArrayOf<elements::BushingOn<G>>, ArrayOf<elements::PointLoadOn<G>>, ArrayOf<elements::LineLoadOn<G, 2>>,
-               ArrayOf<elements::LineLoadOn<G, 3>>, ArrayOf<elements::LineLoadOn<G, 4>>>;
+using ArraysOn = decltype(detail::add_arrays(
+    static_cast<std::tuple<
+        ArrayOf<elements::BeamOn<G, 2>>, ArrayOf<elements::BeamOn<G, 3>>, ArrayOf<elements::BeamOn<G, 4>>,
+        ArrayOf<elements::RigidBodyOn<G>>, ArrayOf<elements::JointOn<G>>, ArrayOf<elements::SpringOn<G>>,
+        ArrayOf<elements::BushingOn<G>>, ArrayOf<elements::PointLoadOn<G>>, ArrayOf<elements::LineLoadOn<G, 2>>,
+        ArrayOf<elements::LineLoadOn<G, 3>>, ArrayOf<elements::LineLoadOn<G, 4>>>*>(nullptr),
+    static_cast<elements::CatalogueOn<G>*>(nullptr)));
 using ElementArrays = ArraysOn<motion::Se3>;
 
 namespace detail {

@@ -13,6 +13,7 @@
 #include "bough/laws/law.hpp"
 #include "bough/laws/surface.hpp"
 #include "bough/motion/se3.hpp"
+#include "bough/scene/coupling_kind.hpp"
 #include "bough/scene/moving_frame.hpp"
 #include "bough/scene/shape_kinds.hpp"
 
@@ -167,6 +168,14 @@ struct Bushing {
   Mat6 damping = Mat6::zero();
   laws::Law factor;    ///< of the stiffness, over time (statics: over the load factor) [-]; none: 1
   std::string signal;  ///< the signal that is the factor in place of the law; empty: none
+};
+
+/// A coupling of the catalogue of elements (elements/coupling.hpp).
+struct Coupling {
+  const CouplingKind* kind = nullptr;
+  std::string name;
+  Attachment first, second;
+  std::vector<double> values;  ///< of the kind's fields, one after the other
 };
 
 enum class LoadAxes : std::uint8_t { space, body };  ///< space: dead load, fixed in space; body: follower load, which
@@ -465,6 +474,7 @@ struct Scene {
   std::vector<Joint> joints;
   std::vector<Spring> springs;
   std::vector<Bushing> bushings;
+  std::vector<Coupling> couplings;
   std::vector<PointLoad> point_loads;
   std::vector<LineLoad> line_loads;
   std::vector<PrescribedMotion> motions;

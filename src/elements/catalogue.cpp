@@ -1,0 +1,68 @@
+/// All that is compiled for the couplings of the catalogue, and their kinds as plain data.
+#include "bough/elements/catalogue.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "bough/elements/coupling_kinds.hpp"
+#include "bough/scene/scene.hpp"
+#include "emit.hpp"
+#include "lanes_impl.hpp"
+
+namespace bough::elements {
+
+template <IsCatalogued E>
+Mat6<double> eval_stiffness_at_start(const scene::Coupling& given, const Frame<double>& first,
+                                     const Frame<double>& second) {
+  E e;
+  take_data(e, given.values.data(), first.R);
+  NodeMotion nodes[2] = {};
+  for (int k = 0; k < 2; ++k) {
+    const Frame<double>& H = k == 0 ? first : second;
+    e.ports[k].node = k;
+    nodes[k].R = H.R;
+    nodes[k].x = motion::Vec3Pair::from(H.x);
+    nodes[k].v = nodes[k].a = nodes[k].dq = Vec6<double>::zero();
+  }
+  if (E::starts_aligned) {
+    e.ports[1].has_offset = true;
+    e.ports[1].offset.R = lanes::transpose_times(second.R, first.R);
+  }
+  Field field;
+  field.nodes = nodes;
+  field.around.gravity = Vec3<double>::zero();
+  field.around.has_inertia = false;
+  double residual[12], tangent[144];
+  evaluate(e, field, nullptr, 0.0, residual, tangent);
+  Mat6<double> K;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) K(i, j) = tangent[(6 + i) * 12 + 6 + j];
+  return K;
+}
+
+namespace {
+
+template <class... E>
+constexpr std::array<const scene::CouplingKind*, sizeof...(E)> kinds_of(std::tuple<E...>*) {
+  return {&kind_of<E>...};
+}
+constexpr auto kinds = kinds_of(static_cast<CatalogueOn<motion::Se3>*>(nullptr));
+
+template <class E>
+constexpr auto functions_of_part =
+    std::tuple{&evaluate<E>,         &evaluate_rate<E>,     &may_share_lanes<E>,
+               &has_same_numbers<E>, &make_lane_element<E>, &evaluate_lanes<LaneElement<E>>};
+
+}  // namespace
+
+BOUGH_EMIT_FOR_CATALOGUE(functions_of_part)
+
+std::span<const scene::CouplingKind* const> coupling_kinds() { return kinds; }
+
+const scene::CouplingKind& coupling_kind(std::string_view list) {
+  for (const scene::CouplingKind* kind : kinds)
+    if (kind->list == list) return *kind;
+  throw std::invalid_argument("there is no kind of couplings \"" + std::string(list) + "\"");
+}
+
+}  // namespace bough::elements
