@@ -22,6 +22,7 @@ help:
 	@echo "make fuzz       a million inputs for what batches read, with sanitizers (clang; minutes)"
 	@echo "make gallery    runs every scene of data/scenarios and data/gallery: build/gallery/index.html, with a view of each"
 	@echo "make manual     renders data/manual by mkdocs: build/release/manual/site/index.html, and manual.html as one page"
+	@echo "make picture    draws the moving picture of the README anew"
 	@echo "make lint       format, include arrows, file lengths;  make format repairs the first"
 	@echo "make check-all  everything: both compilers, slow tests, sanitizers, coverage, browser (an hour or more)"
 	@echo "make dispatch   build one program for every x86-64 (build/dispatch) and test it; three times the time of build"
@@ -69,6 +70,9 @@ study: build
 manual: build
 	@$(NEED) manual
 	cmake --build build/release --target manual
+
+picture: build
+	python3 data/manual/make/moving.py build/release/bough data/gallery/robot_arm.json data/manual/pictures/robot_arm.gif 0 2 40
 
 fuzz:
 	@$(NEED) build test asan

@@ -20,7 +20,7 @@ install(FILES
 install(FILES LICENSE THIRD_PARTY.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 # The manual as Markdown, and as pages where the target `manual` has made them.
-install(DIRECTORY data/manual/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/manual" FILES_MATCHING PATTERN "*.md" PATTERN "make" EXCLUDE)
+install(DIRECTORY data/manual/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/manual" PATTERN "make" EXCLUDE)
 if(BOUGH_BUILD_APPS)
   find_package(Python3 COMPONENTS Interpreter QUIET)
   if(Python3_FOUND)
