@@ -11,6 +11,7 @@ A comment of Markdown on the line above a block says what the block is:
     <!-- into: NAME -->      members of JSON that are put into NAME (items of lists by their names), which is checked
     <!-- status: N -->       the commands end with this status, not with 0
     <!-- not run: REASON -->  a block that is only read
+    <!-- picture: NAME -->   the picture on the next line is the file NAME that the commands of the page have made
 
 `sh` blocks are run, `python` blocks too where NumPy is there. A `text` block below them has lines of what they print,
 in this order; `...` stands for anything. A block of JSON or of commands without any of that is a fault. Blocks of C++ are
@@ -129,7 +130,16 @@ class Page:
                 self.commands(block)
             elif block.language == "text" and self.printed:
                 self.output(block)
+        self.pictures()
         return self.faults
+
+    def pictures(self):
+        text = self.path.read_text(encoding="utf-8")
+        for name, shown in re.findall(r"<!-- picture: (\S+) -->\n!\[[^]]*\]\((\S+)\)", text):
+            self.count("pictures")
+            made, kept = self.folder / name, self.path.parent / shown
+            if not made.exists() or not kept.exists() or made.read_bytes() != kept.read_bytes():
+                self.faults.append(f"{self.path.relative_to(self.source)}: {shown} is not the {name} that the commands make")
 
     def write(self, name, text):
         (self.folder / name).parent.mkdir(parents=True, exist_ok=True)

@@ -35,6 +35,13 @@ bough run scene.json
 scene: done
   ... steps accepted, ...
 ```
+
+```sh
+printf drawn > made.svg
+```
+
+<!-- picture: made.svg -->
+![A picture](kept.svg)
 """
 FAULTS = [  # what is changed, into what, and what has to be told
     ('"mass": 1', '"mass": -1', "/bodies/0/mass"),
@@ -42,6 +49,7 @@ FAULTS = [  # what is changed, into what, and what has to be told
     ("<!-- file: scene.json -->\n", "", "does not say which file"),
     ("bough run scene.json", "bough run other.json", "status 2"),
     ("scene: done", "scene: over", "is not printed: scene: over"),
+    ("printf drawn", "printf other", "kept.svg is not the made.svg"),
     ("## A heading", "## Another", "no such heading"),
     ("(#a-heading)", "(elsewhere.md)", "no such file"),
     ("(#a-heading)", "(../../README.md)", "leads out of the manual"),
@@ -63,6 +71,7 @@ def main():
         page = source / "data" / "manual" / "page.md"
         page.parent.mkdir(parents=True)
         (source / "README.md").write_text("[the manual](data/manual/page.md#a-heading)\n", encoding="utf-8")
+        (page.parent / "kept.svg").write_text("drawn", encoding="utf-8")
         for old, new, words in [("", "", ""), *FAULTS]:
             text = GOOD.replace(old, new, 1) if old else GOOD
             page.write_text(text, encoding="utf-8")
