@@ -14,7 +14,7 @@ A comment of Markdown on the line above a block says what the block is:
     <!-- picture: NAME -->   the picture on the next line is the file NAME that the commands of the page have made
 
 `sh` blocks are run, `python` blocks too where NumPy is there. A `text` block below them has lines of what they print,
-in this order; `...` stands for anything. A block of JSON or of commands without any of that is a fault. Blocks of C++ are
+in this order; `...` stands for anything. A block of which nothing of that can be done is a fault. Blocks of C++ are
 compiled by tests/run.
 """
 
@@ -66,7 +66,8 @@ def merged(scene, members):
     joined, all else is replaced."""
     for key, value in members.items():
         old = scene.get(key)
-        if value and isinstance(value, list) and isinstance(old, list) and all(isinstance(item, dict) for item in value):
+        named = value and isinstance(value, list) and all(isinstance(item, dict) for item in value)
+        if named and isinstance(old, list):
             names = {item.get("name") for item in value} - {None}
             scene[key] = [item for item in old if item.get("name") not in names] + value
         elif isinstance(value, dict) and isinstance(old, dict) and "kind" not in value:
@@ -97,7 +98,8 @@ class Page:
 
     def __init__(self, path, source, program, folder):
         self.path, self.source, self.program, self.folder = path, source, program, pathlib.Path(folder)
-        self.faults, self.printed, self.counts = [], "", {}
+        self.faults, self.counts = [], {}
+        self.printed = None  # by the last commands; None after other blocks, "" where they could not run
         (self.folder / "data").symlink_to(source / "data")
         (self.folder / "bin").mkdir()
         (self.folder / "bin" / "bough").symlink_to(program)
@@ -112,8 +114,8 @@ class Page:
 
     def run(self, arguments, text=None):
         try:
-            done = subprocess.run(arguments, cwd=self.folder, env=self.environment, timeout=LIMIT, text=True, input=text,
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, errors="replace")
+            done = subprocess.run(arguments, cwd=self.folder, env=self.environment, timeout=LIMIT, input=text,
+                                  text=True, errors="replace", stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         except subprocess.TimeoutExpired:
             return None, f"not done within {LIMIT} s"
         return done.returncode, done.stdout
@@ -128,8 +130,10 @@ class Page:
                 self.write(block.marks["file"], block.text)
             elif block.language in ("sh", "python"):
                 self.commands(block)
-            elif block.language == "text" and self.printed:
+            elif block.language == "text" and self.printed is not None:
                 self.output(block)
+            elif block.language != "cpp":
+                self.fault(block, "a block of which nothing can be checked")
         self.pictures()
         return self.faults
 
@@ -139,7 +143,8 @@ class Page:
             self.count("pictures")
             made, kept = self.folder / name, self.path.parent / shown
             if not made.exists() or not kept.exists() or made.read_bytes() != kept.read_bytes():
-                self.faults.append(f"{self.path.relative_to(self.source)}: {shown} is not the {name} that the commands make")
+                where = self.path.relative_to(self.source)
+                self.faults.append(f"{where}: {shown} is not the {name} that the commands make")
 
     def write(self, name, text):
         (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -172,7 +177,7 @@ class Page:
         status, printed = self.run(arguments)
         if status != int(block.marks.get("status", 0)):
             self.fault(block, f"{' '.join(arguments)}:\n{printed}")
-        self.printed = ""
+        self.printed = None
         return None
 
     def commands(self, block):
@@ -190,6 +195,8 @@ class Page:
         return None
 
     def output(self, block):
+        if self.printed == "":
+            return
         self.count("output")
         missing = found_in(block.lines, self.printed)
         if missing is not None:
@@ -270,7 +277,8 @@ def main(arguments):
         finally:
             shutil.rmtree(folder, ignore_errors=True)
     print("\n".join(faults))
-    print(f"{len(pages)} pages:", ", ".join(f"{number} {what}" for what, number in counts.items()), f"; {len(faults)} faults")
+    listed = ", ".join(f"{number} {what}" for what, number in counts.items())
+    print(f"{len(pages)} pages: {listed}; {len(faults)} faults")
     return bool(faults) or not counts
 
 

@@ -48,6 +48,7 @@ FAULTS = [  # what is changed, into what, and what has to be told
     ('"at": "a"', '"at": "b"', "bough check scene.json"),
     ("<!-- file: scene.json -->\n", "", "does not say which file"),
     ("bough run scene.json", "bough run other.json", "status 2"),
+    ("```sh\nbough", "```\nbough", "nothing can be checked"),
     ("scene: done", "scene: over", "is not printed: scene: over"),
     ("printf drawn", "printf other", "kept.svg is not the made.svg"),
     ("## A heading", "## Another", "no such heading"),

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes a moving picture (GIF) of a scene from pictures that `bough view --png` draws. Needs the standard library alone.
+"""Makes a moving picture (GIF) of a scene from pictures that `bough view --png` draws, with the standard library alone.
 
     python3 moving.py PROGRAM SCENE OUT.gif BEGIN END FRAMES
 
@@ -91,9 +91,9 @@ def gif(width, height, frames, hundredths):
     counts = collections.Counter(pixel for frame in frames for pixel in frame)
     palette = [colour for colour, _ in sorted(counts.items(), key=lambda item: (-item[1], item[0]))[:255]]
     nearest = {colour: k for k, colour in enumerate(palette)}
-    for colour in counts:
-        if colour not in nearest:
-            nearest[colour] = min(range(len(palette)), key=lambda k: sum((a - b)**2 for a, b in zip(palette[k], colour)))
+    for colour in counts.keys() - nearest.keys():
+        distances = [sum((a - b)**2 for a, b in zip(other, colour)) for other in palette]
+        nearest[colour] = distances.index(min(distances))
     table = b"".join(bytes(colour) for colour in palette).ljust(768, b"\0")
     text = b"GIF89a" + struct.pack("<HHBBB", width, height, 0xF7, 0, 0) + table + b"!\xff\x0bNETSCAPE2.0\x03\x01\0\0\0"
     last = None
@@ -116,7 +116,8 @@ def main():
         subprocess.run([program, "run", scene, "--out", results, "--quiet", "--set", "/output/motion=true"], **quiet)
         for k in range(number):
             time = begin + (end - begin) * k / number
-            subprocess.run([program, "view", results, "--view", "iso", "--png", picture, "--time", f"{time:g}"], **quiet)
+            words = [program, "view", results, "--view", "iso", "--png", picture, "--time", f"{time:g}"]
+            subprocess.run(words, **quiet)
             width, height, rows = read_png(picture)
             frames.append(halved(width, height, rows))
             picture.unlink()

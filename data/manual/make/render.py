@@ -3,9 +3,10 @@
 
     python3 render.py PROGRAM OUT
 
-OUT/pages gets the Markdown with the reference that PROGRAM writes, OUT/site the pages of mkdocs, OUT/manual.html the one
-page. Needs Debian's mkdocs, which brings the Markdown of Python; uses no network. The order of the pages is that in which
-index.md links them. Exit status 1: a link or anchor that leads nowhere, a page that index.md does not link; 77: no mkdocs.
+OUT/pages gets the Markdown with the reference that PROGRAM writes, OUT/site the pages of mkdocs, OUT/manual.html the
+one page. Needs Debian's mkdocs, which brings the Markdown of Python; uses no network. The order of the pages is that in
+which index.md links them. Exit status 1: a link or anchor that leads nowhere, a page that index.md does not link; 77:
+no mkdocs.
 """
 
 import base64
@@ -37,7 +38,8 @@ nav:
 """
 STYLE = """
 body { font: 16px/1.5 sans-serif; margin: 0; color: #1c1c1c; background: #fff; }
-nav { position: fixed; top: 0; bottom: 0; width: 17em; overflow: auto; padding: 1em; background: #f3f3f3; font-size: 85%; }
+nav { position: fixed; top: 0; bottom: 0; width: 17em; overflow: auto; padding: 1em; font-size: 85%;
+  background: #f3f3f3; }
 nav ul { list-style: none; padding-left: 1em; } nav a { color: inherit; text-decoration: none; }
 main { margin-left: 20em; max-width: 56em; padding: 1em 2em; overflow-wrap: break-word; }
 code { overflow-wrap: anywhere; } pre code { overflow-wrap: normal; }
@@ -139,7 +141,8 @@ def main():
     if unlisted:
         raise SystemExit(f"index.md does not link {', '.join(sorted(unlisted))}")
     (out / "mkdocs.yml").write_text(configuration_of(pages, folder), encoding="utf-8")
-    subprocess.run(["mkdocs", "build", "--quiet", "--strict", "--clean", "--config-file", out / "mkdocs.yml"], check=True)
+    words = ["mkdocs", "build", "--quiet", "--strict", "--clean", "--config-file", out / "mkdocs.yml"]
+    subprocess.run(words, check=True)
     (out / "manual.html").write_text(one_page(pages, folder), encoding="utf-8")
     print(f"{out / 'site' / 'index.html'}\n{out / 'manual.html'}")
     return 0
@@ -148,6 +151,7 @@ def main():
 if __name__ == "__main__":
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    if importlib.util.find_spec("markdown") is None and os.path.exists(DEBIAN_PYTHON) and sys.executable != DEBIAN_PYTHON:
+    lacks = importlib.util.find_spec("markdown") is None
+    if lacks and os.path.exists(DEBIAN_PYTHON) and sys.executable != DEBIAN_PYTHON:
         os.execv(DEBIAN_PYTHON, [DEBIAN_PYTHON, *sys.argv])
     sys.exit(main())
