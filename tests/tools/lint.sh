@@ -1,6 +1,6 @@
 #!/bin/sh
-# Checks the format, the arrows of includes, the lengths of files, READMEs and lines of text, and that no code outside of
-# elements depends on the type of an element. Every check runs; the exit status is 0 if all passed.
+# Checks the format, the arrows of includes, the lengths of files, READMEs and lines of text, and that no code outside
+# of elements depends on the type of an element. Every check runs; the exit status is 0 if all passed.
 set -u
 cd "$(dirname "$0")/../.."
 format=clang-format-14
