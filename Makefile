@@ -69,7 +69,7 @@ study: build
 
 manual: build
 	@$(NEED) manual
-	cmake --build build/release --target manual
+	cmake --build build/release --target bough_manual
 
 picture: build
 	python3 data/manual/make/moving.py build/release/bough data/gallery/robot_arm.json data/manual/pictures/robot_arm.gif 0 2 40
@@ -100,7 +100,7 @@ dispatch:
 
 # Under sudo only where a folder cannot be written; any other failure is one.
 install: build
-	@if command -v mkdocs >/dev/null; then cmake --build build/release --target manual; \
+	@if command -v mkdocs >/dev/null; then cmake --build build/release --target bough_manual; \
 	else echo "mkdocs is not there: the manual is installed as Markdown"; fi
 	@may=yes; mkdir -p "$(PREFIX)" 2>/dev/null || may=no; \
 	for folder in "$(PREFIX)" "$(PREFIX)"/bin "$(PREFIX)"/include "$(PREFIX)"/lib "$(PREFIX)"/share; do \
