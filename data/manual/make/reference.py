@@ -3,16 +3,19 @@
 
     python3 reference.py PROGRAM FOLDER
 
-Writes command-line.md from `--help`, and scene.md, sweep.md, study.md, chain.md and motion.md from the JSON Schemas
-that `bough schema` prints. Two runs with one program write the same bytes. Needs the standard library alone.
+Writes command-line.md from `--help`, scene.md, sweep.md, study.md, chain.md and motion.md from the JSON Schemas that
+`bough schema` prints, python.md from the docstrings of apps/python/bough.py, and headers.md from the first sentences of
+the public headers. Two runs with one program write the same bytes. Needs the standard library alone.
 """
 
+import ast
 import json
 import pathlib
 import re
 import subprocess
 import sys
 
+SOURCE = pathlib.Path(__file__).resolve().parents[3]
 MADE = "This page is written by `data/manual/make/reference.py` from what the program prints.\n"
 SCHEMAS = [  # page, options of the verb, title, command; of later pages, what the first ones define is not repeated
     ("scene", [], "The format of scenes", "bough schema"),
@@ -186,10 +189,49 @@ def schema_page(schema, title, command, elsewhere):
     return re.sub(r"\n{3,}", "\n\n", "\n".join(text))
 
 
+def python_page(path):
+    """Functions and classes of a module, with their arguments and docstrings."""
+    module = ast.parse(path.read_text(encoding="utf-8"))
+    public = next(ast.literal_eval(node.value) for node in module.body
+                  if isinstance(node, ast.Assign) and node.targets[0].id == "__all__")
+    text = ["# The Python module\n", MADE.replace("what the program prints", "docstrings"),
+            "```text\n" + ast.get_docstring(module) + "\n```\n"]
+
+    def add(node, level, owner=""):
+        called = isinstance(node, ast.FunctionDef) and not node.decorator_list  # not a class, nor a property
+        arguments = f"({re.sub(r'^self(, )?', '', ast.unparse(node.args))})" if called else ""
+        text.append(f"{'#' * level} `{owner}{node.name}{arguments}`\n")
+        text.append((ast.get_docstring(node) or "").replace("<", "&lt;") + "\n")
+        for inner in node.body if isinstance(node, ast.ClassDef) else []:
+            if isinstance(inner, ast.FunctionDef) and (inner.name == "__getitem__" or inner.name[0] != "_"):
+                add(inner, level + 1, node.name + ".")
+
+    for node in module.body:
+        if getattr(node, "name", None) in public:
+            add(node, 2)
+    return "\n".join(text)
+
+
+def headers_page(folder):
+    """The public headers by layer, each with the first sentence of its first comment."""
+    text = ["# The headers\n", MADE.replace("what the program prints", "the headers themselves"),
+            "Each header states equations, shapes, frames, units and errors of what it declares.\n"]
+    for layer in sorted(path for path in folder.iterdir() if path.is_dir()):
+        text.append(f"## {layer.name}\n\n| header | about |\n|---|---|")
+        for header in sorted(layer.glob("*.hpp")):
+            comment = re.search(r"^/// (.*(?:\n/// ?.*)*)", header.read_text(encoding="utf-8"), re.MULTILINE).group(1)
+            sentence = re.split(r"(?<=[^.\d])\.(?:\s|$)", re.sub(r"\n/// ?", " ", comment))[0]
+            text.append(f"| `bough/{layer.name}/{header.name}` | {cell(sentence)} |")
+        text.append("")
+    return "\n".join(text)
+
+
 def main():
     program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "command-line.md").write_text(command_line(program), encoding="utf-8")
+    (folder / "python.md").write_text(python_page(SOURCE / "apps" / "python" / "bough.py"), encoding="utf-8")
+    (folder / "headers.md").write_text(headers_page(SOURCE / "include" / "bough"), encoding="utf-8")
     scenes = ()
     for name, options, title, command in SCHEMAS:
         schema = json.loads(output_of(program, "schema", *options))

@@ -22,7 +22,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 DEBIAN_PYTHON = "/usr/bin/python3"
-REFERENCE = ["command-line", "scene", "sweep", "study", "chain", "motion"]
+REFERENCE = ["command-line", "scene", "sweep", "study", "chain", "motion", "python", "headers"]
 EXTENSIONS = ["tables", "fenced_code", "toc", "sane_lists"]
 CONFIGURATION = """site_name: bough
 docs_dir: pages
