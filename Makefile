@@ -10,7 +10,7 @@ CTEST := ctest --test-dir build/release --output-on-failure --no-tests=error -j 
 # What installs missing packages; "make NEED=true" leaves that out.
 NEED := sh cmake/install_dependencies.sh
 
-.PHONY: help run build test bench study stress gallery fuzz check-all dispatch install lint format clean
+.PHONY: help run build test bench study stress gallery manual picture fuzz check-all dispatch install lint format clean
 
 help:
 	@echo "make run        install what is missing, build, simulate $(SCENARIO), write and draw $(RESULTS)"
@@ -21,6 +21,8 @@ help:
 	@echo "make stress     build and measure the stiff and extreme cases: build/stress/stress.html"
 	@echo "make fuzz       a million inputs for what batches read, with sanitizers (clang; minutes)"
 	@echo "make gallery    runs every scene of data/scenarios and data/gallery: build/gallery/index.html, with a view of each"
+	@echo "make manual     renders data/manual by mkdocs: build/release/manual/site/index.html, and manual.html as one page"
+	@echo "make picture    draws the moving picture of the README anew"
 	@echo "make lint       format, include arrows, file lengths;  make format repairs the first"
 	@echo "make check-all  everything: both compilers, slow tests, sanitizers, coverage, browser (an hour or more)"
 	@echo "make dispatch   build one program for every x86-64 (build/dispatch) and test it; three times the time of build"
@@ -65,6 +67,13 @@ bench:
 study: build
 	build/release/bough study data/studies --out $(STUDY) --threads 2
 
+manual: build
+	@$(NEED) manual
+	cmake --build build/release --target bough_manual
+
+picture: build
+	python3 data/manual/make/moving.py build/release/bough data/gallery/robot_arm.json data/manual/pictures/robot_arm.gif 0 2 40
+
 fuzz:
 	@$(NEED) build test asan
 	cmake --preset asan
@@ -91,6 +100,8 @@ dispatch:
 
 # Under sudo only where a folder cannot be written; any other failure is one.
 install: build
+	@if command -v mkdocs >/dev/null; then cmake --build build/release --target bough_manual; \
+	else echo "mkdocs is not there: the manual is installed as Markdown"; fi
 	@may=yes; mkdir -p "$(PREFIX)" 2>/dev/null || may=no; \
 	for folder in "$(PREFIX)" "$(PREFIX)"/bin "$(PREFIX)"/include "$(PREFIX)"/lib "$(PREFIX)"/share; do \
 	  test ! -e "$$folder" || test -w "$$folder" || may=no; done; \

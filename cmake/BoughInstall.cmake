@@ -19,6 +19,19 @@ install(FILES
 # What must go along with every copy: the licence, and those of what is linked or bundled.
 install(FILES LICENSE THIRD_PARTY.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
+# The manual as Markdown, and as pages where the target `bough_manual` has made them.
+install(DIRECTORY data/manual/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/manual" PATTERN "make" EXCLUDE)
+if(BOUGH_BUILD_APPS)
+  find_package(Python3 COMPONENTS Interpreter QUIET)
+  if(Python3_FOUND)
+    set(_manual "${CMAKE_CURRENT_BINARY_DIR}/manual")
+    add_custom_target(bough_manual COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/data/manual/make/render.py"
+      $<TARGET_FILE:bough> "${_manual}" VERBATIM)
+    install(DIRECTORY "${_manual}/site/" DESTINATION "${CMAKE_INSTALL_DOCDIR}/manual" OPTIONAL)
+    install(FILES "${_manual}/manual.html" DESTINATION "${CMAKE_INSTALL_DOCDIR}" OPTIONAL)
+  endif()
+endif()
+
 # The reader and runner for Python: put this folder into PYTHONPATH.
 if(BOUGH_BUILD_APPS)
   install(FILES apps/python/bough.py DESTINATION "${CMAKE_INSTALL_DATADIR}/bough/python")

@@ -1,7 +1,7 @@
 #pragma once
 /// Tangents of beams of three and four nodes and of line loads in closed form. The motion of a section follows from the
 /// nodes' increments by maps of motions in the group's compact form, so only masses, stiffnesses and their products are
-/// full blocks. Derivation: README.md, "Tangent".
+/// full blocks. Derivation: beams.md, "Tangent".
 #include "bough/elements/beam_forces.hpp"
 #include "screw_tangent.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Tangent of the two-node beam (elements/screw_beam.hpp). Odd and even parts of every operator serve both Gauss
-/// points. Derivation: README.md, "Tangent".
+/// points. Derivation: beams.md, "Tangent".
 #include "beam_terms.hpp"
 #include "bough/elements/screw_beam.hpp"
 

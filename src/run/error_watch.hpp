@@ -27,7 +27,7 @@ namespace bough::run {
 class ErrorWatch {
  public:
   /// Factor by which the motion amplifies the sum of local errors. In 16 kinds of scene, from tops to flexible beams,
-  /// the largest error of a sensor was 1.2 to 8 times A, typically 3 times (src/run/README.md).
+  /// the largest error of a sensor was 1.2 to 8 times A, typically 3 times (data/manual/theory/errors.md).
   static constexpr double growth = 3.0;
 
   explicit ErrorWatch(const plan::Plan& plan);

@@ -80,12 +80,12 @@ holds cmp expanded.out/history.csv varied.out/history.csv
 expect 2 'no parameter' expand "$gallery/rod_chain.json" --set /parameters/M=3
 expect 2 'mass' expand bad.json
 
-# the chain of the README, with the options given there
-readme=$gallery/../../README.md
+# the chain of the manual, with the options given there
+page=$gallery/../manual/guides/varying-scenes.md
 awk '/^```json/ { text = ""; inside = 1; next } /^```/ { if (inside && text ~ /"repeat"/) printf "%s", text; inside = 0 }
-     inside { text = text $0 "\n" }' "$readme" > chain.json
+     inside { text = text $0 "\n" }' "$page" > chain.json
 for verb in run expand; do
-  options=$(sed -n "s/^    bough $verb chain.json //p" "$readme")
+  options=$(sed -n "s/^bough $verb chain.json //p" "$page")
   holds test -n "$options"
   # shellcheck disable=SC2086
   expect 0 . $verb chain.json $options

@@ -1,4 +1,4 @@
-// The Mozzi-Chasles screw of a motion: eq. numbers are those of src/motion/README.md.
+// The Mozzi-Chasles screw of a motion: eq. numbers are those of data/manual/theory/motions.md.
 #include "bough/motion/motion_tensor.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Identities of the screw of a motion and of the motion tensor, 1000 random motions and more each, over all angles:
 // results against 50 digits. Bounds are multiples of round-off times the scale of the case: |u| for displacements,
 // |u|/(2 sin (phi/2)) for the axis, |d| + phi |w| where (d, phi, w, n) is given. Numbers in brackets: equations,
-// src/motion/README.md.
+// data/manual/theory/motions.md.
 #include "bough/motion/composition.hpp"
 #include "bough/motion/half_angle.hpp"
 #include "bough/motion/plucker.hpp"

@@ -13,8 +13,8 @@
 namespace bough::scene {
 namespace {
 
-std::string readme() {
-  std::ifstream file(support::source_dir() / "src/scene/README.md");
+std::string guide(const std::string& name) {
+  std::ifstream file(support::source_dir() / "data/manual/guides" / name);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
@@ -25,31 +25,31 @@ std::string escaped(std::string text) {
   return text;
 }
 
-TEST(Kinds, the_readme_has_the_row_of_every_joint) {
-  const std::string text = readme();
+TEST(Kinds, the_manual_has_the_row_of_every_joint) {
+  const std::string text = guide("joints.md");
   for (const JointType& type : joint_types()) {
     std::string coordinates;
     for (const JointCoordinate& c : type.coordinates) coordinates += (coordinates.empty() ? "" : ", ") + c.name;
     const std::string row = "| `" + type.name + "` | " + escaped(equations_of(type)) + " | " +
                             (coordinates.empty() ? "none" : coordinates) + " | " + type.about + " |\n";
-    EXPECT_NE(text.find(row), std::string::npos) << "src/scene/README.md needs\n" << row;
+    EXPECT_NE(text.find(row), std::string::npos) << "data/manual/guides/joints.md needs\n" << row;
   }
 }
 
-TEST(Kinds, the_readme_has_the_row_of_every_sensor) {
-  const std::string text = readme();
+TEST(Kinds, the_manual_has_the_row_of_every_sensor) {
+  const std::string text = guide("measures.md");
   for (const SensorType& type : sensor_types()) {
     const std::string row = "| `" + type.name + "` | " + components_text(type) + " | " + type.about + " |\n";
-    EXPECT_NE(text.find(row), std::string::npos) << "src/scene/README.md needs\n" << row;
+    EXPECT_NE(text.find(row), std::string::npos) << "data/manual/guides/measures.md needs\n" << row;
   }
 }
 
-TEST(Kinds, the_readme_has_the_row_of_every_signal) {
-  const std::string text = readme();
+TEST(Kinds, the_manual_has_the_row_of_every_signal) {
+  const std::string text = guide("signals.md");
   for (const SignalType& type : signal_types()) {
     const std::string row =
         "| `" + std::string(type.name) + "` | " + std::string(type.unit) + " | " + std::string(type.about) + " |\n";
-    EXPECT_NE(text.find(row), std::string::npos) << "src/scene/README.md needs\n" << row;
+    EXPECT_NE(text.find(row), std::string::npos) << "data/manual/guides/signals.md needs\n" << row;
   }
 }
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Checks the format, the arrows of includes, the lengths of files and of lines of text, and that no code outside of
-# elements depends on the type of an element. Every check runs; the exit status is 0 if all passed.
+# Checks the format, the arrows of includes, the lengths of files, READMEs and lines of text, and that no code outside
+# of elements depends on the type of an element. Every check runs; the exit status is 0 if all passed.
 set -u
 cd "$(dirname "$0")/../.."
 format=clang-format-14
@@ -28,6 +28,13 @@ long=$(find . -name '*.md' -not -path './build/*' -exec grep -nE '^[^|].{120,}$'
 if [ -n "$long" ]; then
   echo "lines of more than 120 characters:"
   echo "$long"
+  failed=1
+fi
+# A README is one page: what is longer belongs to the manual.
+pages=$(wc -l README.md src/*/README.md | awk '$2 != "total" && $1 >= 120 { print $1, $2 }')
+if [ -n "$pages" ]; then
+  echo "READMEs of 120 lines and more:"
+  echo "$pages"
   failed=1
 fi
 sh tests/tools/check_length.sh || failed=1

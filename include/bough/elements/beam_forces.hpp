@@ -1,5 +1,5 @@
 #pragma once
-/// Forces of beams of three and four nodes, and of line loads, on their nodes, from BeamRates. Derivation: README.md,
+/// Forces of beams of three and four nodes, and of line loads, on their nodes, from BeamRates. Derivation: beams.md,
 /// "Beam".
 #include "bough/elements/screw_beam.hpp"
 

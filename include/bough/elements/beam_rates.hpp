@@ -3,7 +3,7 @@
 /// exp(-D) and Ad(exp d)^-1 = exp(-D) turn the velocity field of a beam, Ad(exp d)^-1 v_r + T(d) d', into
 ///   v(s) = v_r + T(d) z,   z = sum_i N_i z_i,   z_i = T(d_i)^-1 (v_i - v_r),   d_i' = z_i + ad(d_i) v_r,
 /// and likewise the virtual motions and the weight (R^T g; 0). No adjoint of a relative pose remains. Derivation:
-/// README.md, "Beam".
+/// data/manual/theory/beams.md, "Beam".
 #include "bough/elements/beam.hpp"
 #include "bough/motion/operators.hpp"
 

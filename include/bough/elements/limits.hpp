@@ -29,7 +29,7 @@ inline double cosine_of(const Vec2<double>& turn) { return turn[0]; }
 
 /// How far an element is from the limits of its shape: the least cos(angle) - cos(limit) of its angles that have a
 /// limit; negative: past it. Since |d cos(a)/da| <= 1, the angle is at least as far from the limit, in rad. Limits: a
-/// beam turns by nearly half a turn over its length, where the logarithm of (1) in README.md is not unique; a joint
+/// beam turns by nearly half a turn over its length, where the logarithm of (1) in beams.md is not unique; a joint
 /// goes to its opposite pose, which satisfies the same constraints. Infinite: the element has none.
 template <class E, class F>
 double eval_shape_margin(const E&, const F&) {

@@ -1,6 +1,6 @@
 #pragma once
 /// Forces of the two-node beam. With one relative motion d all operators on a section are functions of D = ad(d)
-/// alone, so (7) of README.md becomes (8), an interpolation of the nodes' own motions by P(s)
+/// alone, so (7) of beams.md becomes (8), an interpolation of the nodes' own motions by P(s)
 /// (motion/screw_blend.hpp):
 ///   v(s) = v_r + P (v_1 - v_r),   F_1 = T^-T n + sum_g w_g P^T f,   F_r + F_1 = ad(d)^T n + sum_g w_g f.
 /// D is applied to each vector once, and polynomials of D are evaluated by Horner's rule.

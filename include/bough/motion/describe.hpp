@@ -1,6 +1,6 @@
 #pragma once
 /// A report of one motion: the representations of its rotation, its screw, its parameters and its motion tensor.
-/// Equation numbers are those of src/motion/README.md. Lengths in the unit of the input, angles [rad].
+/// Equation numbers are those of data/manual/theory/motions.md. Lengths in the unit of the input, angles [rad].
 #include <array>
 #include <optional>
 #include <string_view>

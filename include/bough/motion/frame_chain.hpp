@@ -7,7 +7,7 @@
 /// Any frame of the chain may be the observer, also one after the point's frame: sums then run backwards with a minus.
 /// The functions use doubles, are pure, do not allocate and throw std::invalid_argument for a frame that is not in the
 /// chain. Errors are a few round-off of the sum of the magnitudes of the terms. Equation numbers: Harithuddin,
-/// Trivailo, Jazar 2015 (src/motion/README.md).
+/// Trivailo, Jazar 2015 (data/manual/theory/motions.md).
 #include <vector>
 
 #include "bough/motion/resolved.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// General motion of a rigid body as one screw: Mozzi-Chasles axis, intrinsic displacement, pitch, intrinsic motion.
 /// A motion is given by its Frame: the reference point (origin) moves by u = x, the body turns by R. Equation numbers
-/// are those of src/motion/README.md. For post-processing and model set-up: doubles, pure, no allocation, no failure.
+/// are those of theory/motions.md. For post-processing and model set-up: doubles, pure, no allocation, no failure.
 /// Errors are a few round-off of |u|/(2 sin(phi/2)) in w and the axis, of |u| in d and all displacements.
 #include <optional>
 

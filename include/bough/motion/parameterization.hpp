@@ -9,7 +9,7 @@
 /// p' = dp/dphi. On SE(3) the same functions of the dual vector p + e u, e^2 = 0 (transference): P = (u; p) has
 /// u = p w + p' d n for the motion (d, phi, w, n), which is the screw p N of [1.73] with alpha = 2 sin(phi/2) p'/p:
 /// alpha = 2 sin(phi/2)/phi, 1/cos(phi/2) and, for Wiener-Milenkovic, exactly 1.
-/// Templates on the scalar; pure, no allocation, no failure. Sources: src/motion/README.md.
+/// Templates on the scalar; pure, no allocation, no failure. Sources: data/manual/theory/motions.md.
 #include <string_view>
 
 #include "bough/motion/se3.hpp"

@@ -2,7 +2,7 @@
 /// Motions SE(3): composition, exponential, logarithm, motion tensor (adjoint), tangent operators and their
 /// derivatives. 6-vectors are (linear; angular); increments are right increments in the frame's own axes, H <- H
 /// exp(eta). Lengths [m], angles [rad]. Every function is pure, does not allocate and cannot fail. Sources:
-/// src/motion/README.md.
+/// data/manual/theory/groups.md.
 #include "bough/motion/so3.hpp"
 
 namespace bough::motion {

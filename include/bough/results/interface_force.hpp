@@ -20,8 +20,8 @@ struct InterfaceForce {
 };
 
 /// The wrenches with which the rest of the structure holds a sub-domain at the nodes of its interface, ascending: the
-/// sums of the residuals, there, of the elements inside. They are the local multipliers l of the sub-domain, (2) in
-/// src/solve/README.md, at a state in equilibrium. In statics residuals include the first-order change f + K eta that
+/// sums of the residuals, there, of the elements inside. They are the local multipliers l of the sub-domain, (2) of
+/// theory/method.md, at a state in equilibrium. In statics residuals include the first-order change f + K eta that
 /// the last correction leaves (State::unsettled). Precondition: the sub-domain is not the root.
 std::vector<InterfaceForce> eval_interface_forces(const step::System& system, const step::State& state,
                                                   const elements::Field& field, tree::SubdomainId subdomain);

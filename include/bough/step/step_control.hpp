@@ -48,7 +48,7 @@ class LocalError {
   /// structure, 1 rad, the largest speeds so far, and these at the least: the size of the structure and 1 rad in
   /// `duration` [s]. Where step control is on, errors count where sensors look: a vibration faster than the step that
   /// no sensor sees would otherwise ask for steps that resolve it, although the scheme filters it. Without sensors
-  /// they count everywhere. What each kind of sensor watches stands in src/step/README.md.
+  /// they count everywhere. What each kind of sensor watches stands in data/manual/theory/integrators.md.
   LocalError(const System& system, const StepOptions& options, double duration);
 
   /// A start, or the far side of a jump: v''' is not known in the first step.

@@ -1,6 +1,6 @@
 """Failures injected by strace at the k-th write, fsync, rename, mkdir, open and mmap of verbs that write.
 
-Every run has to end with a status that the README names and with a message. Afterwards the former good results or
+Every run has to end with a status that the manual names and with a message. Afterwards the former good results or
 the new ones must be complete."""
 import collections
 import os

@@ -9,7 +9,7 @@ import tempfile
 import threading
 import time
 
-GOOD_STATUSES = (0, 1, 2)  # done, failed, bad input: those that the README names
+GOOD_STATUSES = (0, 1, 2)  # done, failed, bad input: those that the manual names
 CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")  # all but tabs and ends of lines
 
 
