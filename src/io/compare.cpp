@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "bough/io/columns.hpp"
 
@@ -33,21 +34,47 @@ Bounds bounds_of(const History& history, const ValueOf& value_of) {
   return {high - low, std::max(std::abs(low), std::abs(high))};
 }
 
+bool runs_forward(const History& history) {
+  return std::adjacent_find(history.rows.begin(), history.rows.end(),
+                            [](const auto& x, const auto& y) { return !(x.time < y.time); }) == history.rows.end();
+}
+
+using RowPairs = std::vector<std::pair<const records::HistoryRow*, const records::HistoryRow*>>;
+/// Rows at equal times. Where times do not grow, as on a path past a limit point, rows are counted.
+RowPairs pair_rows(const History& a, const History& b) {
+  constexpr double equal = 1e-9;  // of the last time
+  RowPairs pairs;
+  if (a.rows.empty() || b.rows.empty()) return pairs;
+  if (a.rows.size() == b.rows.size() || !runs_forward(a) || !runs_forward(b)) {
+    for (std::size_t k = 0; k < std::min(a.rows.size(), b.rows.size()); ++k) pairs.emplace_back(&a.rows[k], &b.rows[k]);
+    return pairs;
+  }
+  const double apart = equal * std::max(std::abs(a.rows.back().time), std::abs(b.rows.back().time));
+  for (auto i = a.rows.begin(), j = b.rows.begin(); i != a.rows.end() && j != b.rows.end();) {
+    if (std::abs(i->time - j->time) <= apart)
+      pairs.emplace_back(&*i++, &*j++);
+    else if (i->time < j->time)
+      ++i;
+    else
+      ++j;
+  }
+  return pairs;
+}
+
 template <class ValueA, class ValueB>
-ColumnDifference compare_column(const std::string& name, const History& a, const History& b, const Bounds& bounds,
+ColumnDifference compare_column(const std::string& name, const RowPairs& rows, const Bounds& bounds,
                                 const CompareOptions& options, const ValueA& in_a, const ValueB& in_b) {
   ColumnDifference difference;
   difference.name = name;
   difference.scale = bounds.range > 0.0 ? bounds.range : bounds.magnitude;
-  const std::size_t num_rows = std::min(a.rows.size(), b.rows.size());
-  for (std::size_t k = 0; k < num_rows; ++k) {
-    const double value_a = in_a(a.rows[k]), value_b = in_b(b.rows[k]);
+  for (const auto& [a, b] : rows) {
+    const double value_a = in_a(*a), value_b = in_b(*b);
     if (!std::isfinite(value_a) || !std::isfinite(value_b)) {
-      if (!difference.has_non_finite) difference.time = a.rows[k].time;
+      if (!difference.has_non_finite) difference.time = a->time;
       difference.has_non_finite = true;
     } else if (!difference.has_non_finite && std::abs(value_a - value_b) > difference.absolute) {
       difference.absolute = std::abs(value_a - value_b);
-      difference.time = a.rows[k].time;
+      difference.time = a->time;
     }
   }
   if (difference.absolute > 0.0) {
@@ -77,13 +104,14 @@ std::vector<Bounds> bounds_by_group(const History& a) {
 
 Comparison compare_histories(const History& a, const History& b, const CompareOptions& options) {
   Comparison comparison;
-  if (a.rows.size() != b.rows.size()) {
+  const RowPairs rows = pair_rows(a, b);
+  if (a.rows.size() != b.rows.size())
     comparison.problems.push_back("A has " + std::to_string(a.rows.size()) + " rows, B has " +
-                                  std::to_string(b.rows.size()));
-  }
+                                  std::to_string(b.rows.size()) + ": compared are " + std::to_string(rows.size()) +
+                                  (runs_forward(a) && runs_forward(b) ? " at equal times" : " from the first on"));
   if (a.rows.empty() || b.rows.empty()) comparison.problems.emplace_back("a history without rows");
   const auto compare_fixed = [&](const char* name, bool is_judged, const auto& value_of) {
-    comparison.columns.push_back(compare_column(name, a, b, bounds_of(a, value_of), options, value_of, value_of));
+    comparison.columns.push_back(compare_column(name, rows, bounds_of(a, value_of), options, value_of, value_of));
     comparison.columns.back().is_judged = is_judged;
   };
   compare_fixed("time", true, [](const records::HistoryRow& row) { return row.time; });
@@ -100,7 +128,7 @@ Comparison compare_histories(const History& a, const History& b, const CompareOp
       continue;
     }
     comparison.columns.push_back(compare_column(
-        name, a, b, bounds[c], options, [c](const records::HistoryRow& row) { return row.values[c]; },
+        name, rows, bounds[c], options, [c](const records::HistoryRow& row) { return row.values[c]; },
         [d](const records::HistoryRow& row) { return row.values[d]; }));
   }
   for (const std::string& name : b.header.columns)

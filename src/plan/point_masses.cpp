@@ -11,7 +11,22 @@
 namespace bough::plan {
 
 using elements::Port;
+using elements::RowKind;
 using motion::Vec3;
+
+namespace {
+
+/// Whether a joint acts on its second body by forces at the origin of its second frame alone: along axes of the first,
+/// or along the line between the origins.
+bool acts_at_second_origin(const elements::Joint& e) {
+  const auto is_force = [](RowKind kind) {
+    return kind == RowKind::along || motion::traits_of(kind).is_between_points;
+  };
+  return std::all_of(e.rows, e.rows + e.num_rows, [&](const auto& row) { return is_force(row.kind); }) &&
+         std::all_of(e.efforts, e.efforts + e.num_efforts, [&](const auto& f) { return is_force(f.coordinate); });
+}
+
+}  // namespace
 
 /// A point mass has no rotational inertia, so it has displacements alone if no attached part depends on its rotation.
 /// If all its attachment points lie on one line through it, only the spin about this line has no effect. In dynamics it
@@ -46,7 +61,8 @@ void Builder::find_points() {
         const bool turns = std::any_of(e.efforts, e.efforts + e.num_efforts, [](const elements::Effort& effort) {
           return !motion::traits_of(effort.coordinate).is_between_points;
         });
-        mark(e, turns || !motion::joins_points(std::span(e.rows, static_cast<std::size_t>(e.num_rows))));
+        mark_port(e.ports[0], turns || !motion::joins_points(std::span(e.rows, static_cast<std::size_t>(e.num_rows))));
+        mark_port(e.ports[1], !acts_at_second_origin(e));
       } else if constexpr (elements::IsCatalogued<E>) {
         mark_port(e.ports[0], true);
         mark_port(e.ports[1], !E::pulls_at_point);

@@ -66,6 +66,7 @@ CarriedError::CarriedError(step::System& system, const scene::Solver& solver, co
 void CarriedError::restart(double time) {
   transport_.restart(time);
   local_.restart();
+  last_velocity_.clear();
   has_first_ = false;
   since_ = 0;
 }
@@ -115,14 +116,46 @@ std::optional<step::Trouble> CarriedError::carry(const step::State& state) {
   budget_ -= 0.5;
   if (auto t = transport_.carry(state)) return t;
   budget_ -= 0.1 * transport_.num_solutions();  // one is about a tenth of such a step
+  look_for_leap(state);
   largest_ = std::max(largest_, transport_.size());
   if (state.time <= middle_) largest_early_ = largest_;
   return std::nullopt;
 }
 
+/// An impact within a long step of the error changes velocities by other than the mean of the accelerations at its ends.
+/// The tangent there is that of before or after it, or of its middle all the time, and what the error then grows by is
+/// not the motion's.
+void CarriedError::look_for_leap(const step::State& state) {
+  constexpr double leap = 0.25;  // of the change; a vibration of 1.7 rad a step is off by that
+  const std::vector<elements::NodeMotion>& nodes = nodes_in_space(system_.plan(), state);
+  const double h = state.time - last_time_, length = system_.plan().length_scale;
+  const bool looks = stride_ > 1 && last_velocity_.size() == nodes.size() && h > 0.0;
+  last_velocity_.resize(nodes.size());
+  last_acceleration_.resize(nodes.size());
+  double off = 0.0, all = 0.0;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const motion::Mat3<double>& R = nodes[n].R;
+    const motion::Vec3<double> u = lanes::linear_part(nodes[n].v), w = lanes::angular_part(nodes[n].v);
+    const motion::Vec6<double> v = lanes::join(motion::Vec3<double>(R * u), motion::Vec3<double>(length * (R * w)));
+    const motion::Vec3<double> a = lanes::linear_part(nodes[n].a) + lanes::cross(w, u);
+    const motion::Vec6<double> rate =
+        lanes::join(motion::Vec3<double>(R * a), motion::Vec3<double>(length * (R * lanes::angular_part(nodes[n].a))));
+    if (looks) {
+      const motion::Vec6<double> change = v - last_velocity_[n], mean = (0.5 * h) * (rate + last_acceleration_[n]),
+                                 gap = change - mean;
+      off += lanes::dot(gap, gap);
+      all += lanes::dot(change, change) + lanes::dot(mean, mean);
+    }
+    last_velocity_[n] = v;
+    last_acceleration_[n] = rate;
+  }
+  last_time_ = state.time;
+  has_leapt_ = has_leapt_ || off > leap * leap * all;
+}
+
 double CarriedError::grows_in() const {
-  constexpr double sensitive = 30.0;                      // a power of time makes 4 to 8 of the two halves of a run
-  if (unresolved_ > unresolved_share * all_) return 0.0;  // steps that do not resolve the motion let errors grow
+  constexpr double sensitive = 30.0;  // a power of time makes 4 to 8 of the two halves of a run
+  if (has_leapt_ || unresolved_ > unresolved_share * all_) return 0.0;  // errors grow by such steps, not by the motion
   if (!(largest_early_ > 0.0) || !(largest_ > sensitive * largest_early_)) return 0.0;
   return 0.5 * duration_ / std::log(largest_ / largest_early_);
 }

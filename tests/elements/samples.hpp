@@ -252,7 +252,7 @@ Sample<E> catalogued_sample(Ends ends) {
     const Frame<double> first = numbers.frame(), second = numbers.frame();
     place(s, {first, second}, numbers);
     const PortMotion<double> at[2] = {{first, {}, {}}, {second, {}, {}}};
-    if (eval_strain_energy(s.element, at) > 0.02) return s;
+    if (eval_strain_energy(s.element, at) > 0.5) return s;
   }
 }
 

@@ -159,5 +159,22 @@ TEST(Points, keep_their_orientation_whatever_spin_they_are_given) {
   EXPECT_EQ(r.summary.changed_velocities[0].of, "load");
 }
 
+// A row along an axis of the ground pulls at the point alone, with whatever else acts there.
+TEST(Points, do_not_turn_on_a_prescribed_motion_of_some_components) {
+  for (const char* pull : {R"-("stiffness": 1000)-", R"-("force_law": {"expression": "1000*stretch"})-"})
+    for (const char* analysis :
+         {R"-({"kind": "static"})-", R"-({"kind": "dynamic", "end_time": 0.01, "step_size": 1e-3})-"}) {
+      SCOPED_TRACE(std::string(pull) + analysis);
+      const Outcome r = run_ok(scene_of(std::string(R"-({"gravity": [0, 0, -9.81],
+        "bodies": [{"name": "tip", "kind": "point_mass", "mass": 1, "position": [0, 0, -1]}],
+        "springs": [{"name": "s", "first": "ground", "second": "tip", "rest_length": 1, )-") +
+                                        pull + R"-(}], "motions": [{"name": "m", "at": "tip", "x": 0, "y": 0}],
+        "sensors": [{"name": "tip", "kind": "position", "at": "tip"}], "analysis": )-" +
+                                        analysis + "}"));
+      if (std::string(analysis).find("static") != std::string::npos)
+        EXPECT_NEAR(r.history.last("tip.z"), -1.0 - 9.81 / 1000.0, 1e-9);
+    }
+}
+
 }  // namespace
 }  // namespace bough::run

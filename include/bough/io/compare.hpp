@@ -31,7 +31,7 @@ struct Comparison {
   bool equal = false;
 };
 
-/// Compares the common columns over the common rows.
+/// Compares the common columns over rows of equal times; where times do not grow, over the first rows of both.
 Comparison compare_histories(const History& a, const History& b, const CompareOptions& options);
 
 }  // namespace bough::io
