@@ -97,6 +97,9 @@ std::string plan_text(const run::Outlook& o) {
       "\n";
   text += "a run, " + rounded_text(o.steps, 6) + (o.steps == 1.0 ? " step" : " steps") + ", about " +
           seconds_text(o.steps * e.step_seconds()) + " on one thread\n";
+  for (const run::OutlookTwin& t : o.twins)
+    text += "beside it, for its errors, " + t.what + ": about " + seconds_text(t.seconds) + " on one thread, " +
+            bytes_text(t.memory_bytes) + "\n";
   text += "memory, about " + bytes_text(static_cast<double>(o.process_bytes)) + ", of which " +
           bytes_text(static_cast<double>(e.memory_bytes)) + " for the scene\n\n";
   std::vector<std::vector<std::string>> rows{{"decision", "", "with it", "because"}};
@@ -191,6 +194,16 @@ std::string plan_json(const run::Outlook& o, const std::vector<io::Problem>& hin
       json.key("step_without");
       write_effort(json, d.without);
     }
+    json.end_object();
+  }
+  json.end_array();
+  json.key("twins");
+  json.begin_array();
+  for (const run::OutlookTwin& t : o.twins) {
+    json.begin_object();
+    json.member("what", t.what);
+    json.member("time_s", t.seconds);
+    json.member("memory_bytes", t.memory_bytes);
     json.end_object();
   }
   json.end_array();

@@ -1,4 +1,4 @@
-/// The command line: verbs, options, examples. The only file that knows CLI11.
+/// The command line: verbs, options, examples.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -6,77 +6,13 @@
 #include <string_view>
 
 #include "arguments.hpp"
-#include "bough/io/number_text.hpp"
-#include "bough/scene/components.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "bough/version.hpp"
 #include "memory_limit.hpp"
+#include "shared_options.hpp"
 
 namespace bough::app {
 namespace {
-
-/// A finite number from low to high. (CLI::Range lets NaN pass.)
-CLI::Validator between(double low, double high) {
-  const auto number = [](double x) { return io::rounded_text(x, 6); };
-  const std::string range = number(low) + " to " + number(high);
-  return {[=](const std::string& text) {
-            double x = 0.0;
-            const bool good = io::read_number(text, x) && x >= low && x <= high;
-            return good ? std::string() : "'" + text + "' is not a number from " + range;
-          },
-          range};
-}
-
-void add_overrides(CLI::App& verb, std::vector<std::string>& overrides) {
-  verb.add_option("--set", overrides, "Replace a value of the scene; may be given several times")
-      ->type_name("/POINTER=VALUE")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
-/// Decisions of the plan that are not to be taken: an override of /without, made when all are known.
-void add_without(CLI::App& verb, std::vector<std::string>& overrides) {
-  verb.add_option_function<std::vector<std::string>>(
-          "--without",
-          [&overrides](const std::vector<std::string>& names) {
-            std::string list;
-            for (const std::string& name : names) list += (list.empty() ? "\"" : ", \"") + name + "\"";
-            overrides.push_back("/without=[" + list + "]");
-          },
-          "Do not take this decision of the plan (see bough plan); may be given several times")
-      ->type_name("DECISION")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->check(CLI::IsMember(scene::names_in_without()));
-}
-
-/// Scenes of which a run would take more are refused before anything is allocated for them.
-void add_memory_limit(CLI::App& verb, double& bytes, const std::string& what = "a run") {
-  verb.add_option_function<std::string>(
-          "--memory-limit", [&bytes](const std::string& text) { (void)read_memory_size(text, bytes); },
-          "Most memory that " + what + " may take, as 512M or 8G (default: what is available)")
-      ->type_name("SIZE")
-      ->check([](const std::string& text) {
-        double size = 0.0;
-        return read_memory_size(text, size) ? std::string() : "'" + text + "' is not a size in bytes, as 512M or 8G";
-      });
-}
-
-void add_threads(CLI::App& verb, int& threads, const std::string& what) {
-  verb.add_option("--threads", threads, what + " (default: as many as the machine has)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024));
-}
-
-CLI::Option* add_replace(CLI::App& verb, bool& replace) {
-  return verb.add_flag("--replace", replace, "Replace what the directory holds of another verb, scene or batch");
-}
-
-CLI::App& add_verb(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples) {
-  CLI::App* verb = app.add_subcommand(name, what);
-  verb->footer("Examples:\n" + examples);
-  return *verb;
-}
 
 void add_run(CLI::App& app, RunArguments& a, int& code) {
   CLI::App& verb = add_verb(app, "run", "Simulate a scene and write the results",
@@ -107,6 +43,7 @@ void add_run(CLI::App& app, RunArguments& a, int& code) {
   add_overrides(verb, a.overrides);
   add_memory_limit(verb, a.memory_limit);
   add_without(verb, a.overrides);
+  add_errors(verb, a.errors, a.overrides);
   verb.add_flag("--quiet", a.quiet, "Print problems and doubts only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
   verb.add_flag("--strict", a.strict, "Exit with 1 also where the run is not to be trusted without a closer look");
@@ -146,6 +83,7 @@ void add_case_options(CLI::App& verb, CaseArguments& a) {
       ->type_name("S")
       ->check(between(0.001, 1e9));
   add_overrides(verb, a.overrides);
+  add_errors(verb, a.errors, a.overrides);
   add_memory_limit(verb, a.memory_limit, "all cases at a time");
   verb.add_flag("--quiet", a.quiet, "Print failed cases and the number of doubted ones only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
@@ -340,6 +278,7 @@ void add_plan(CLI::App& app, PlanArguments& a, int& code) {
   add_overrides(verb, a.overrides);
   add_memory_limit(verb, a.memory_limit);
   add_without(verb, a.overrides);
+  add_errors(verb, a.errors, a.overrides);
   verb.callback([&] { code = plan(a); });
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bough/io/number_text.hpp"
+#include "error_text.hpp"
 
 namespace bough::app {
 namespace {
@@ -132,6 +133,7 @@ std::string result_text(const records::Summary& summary, const std::string& dire
       rows.push_back({"  " + m.name, m.value ? rounded_text(*m.value, 9) : "none"});
     text += table_text(rows);
   }
+  if (summary.errors) text += errors_text(*summary.errors);
   text += "  results in " + directory + ":";
   for (const std::string& file : files) text += " " + file;
   return text + "\n";

@@ -39,6 +39,7 @@ class Run:
         self.columns, table = _read_table(self.directory)
         self._index = {name: k for k, name in enumerate(self.columns)}
         self._table = table
+        self._errors = None
         self._about = {}
         about = self.directory / "columns.json"
         if about.exists():
@@ -64,6 +65,21 @@ class Run:
     def trusted(self):
         """Whether the run is complete and nothing in it speaks against its results."""
         return self.status == "ok" and not self.doubts
+
+    @property
+    def errors(self):
+        """Measured errors of the columns, {column: {"extrapolated": ..., "error_in_time": ..., "error_of_mesh": ...}} with
+        arrays of one value a row, limit minus value and NaN where it is not known; {} where none were measured. What is
+        known of them in words and numbers stands in summary["errors"]."""
+        if self._errors is None:
+            table = self.directory / "errors.csv"
+            self._errors = {}
+            if table.exists():
+                names, rows = _read_csv(table)
+                for name, values in zip(names[3:], rows.T[3:]):
+                    column, _, kind = name.rpartition(".")
+                    self._errors.setdefault(column, {})[kind] = values
+        return self._errors
 
     def __getitem__(self, column):
         """The column of this name, or all columns of the sensor of this name, one array column each."""
@@ -102,13 +118,17 @@ class Run:
         return f"{column} [{unit}]" if unit else column
 
     def plot(self, *columns, axes=None):
-        """Draws columns, or all of a sensor, over time; returns the axes of matplotlib."""
+        """Draws columns, or all of a sensor, over time, with bands of their known errors; returns the axes of matplotlib."""
         from matplotlib import pyplot
 
         axes = axes if axes is not None else pyplot.gca()
         for name in columns:
             for column in [name] if name in self._index else self._of_sensor(name):
-                axes.plot(self.time, self[column], label=self.label(column))
+                (line,) = axes.plot(self.time, self[column], label=self.label(column))
+                if column in self.errors:
+                    kinds = [self.errors[column][kind] for kind in ("error_in_time", "error_of_mesh")]
+                    half = numpy.nansum(numpy.abs(kinds), axis=0)
+                    axes.fill_between(self.time, self[column] - half, self[column] + half, color=line.get_color(), alpha=0.3)
         axes.set_xlabel(self.label("time"))
         axes.legend()
         return axes
@@ -258,10 +278,17 @@ def _read_table(directory):
     table, twin = directory / "history.csv", directory / "history.npy"
     if not table.exists():
         table, twin = directory / "history.csv.partial", directory / "history.npy.partial"
+    if twin.exists():
+        with open(table, encoding="utf-8", newline="") as file:
+            names = [_plain(name) for name in next(csv.reader(file))]
+        return names, read_npy(twin, len(names))
+    return _read_csv(table)
+
+
+def _read_csv(table):
+    """Names of the columns and all whole rows of a table of numbers."""
     with open(table, encoding="utf-8", newline="") as file:
         names = [_plain(name) for name in next(csv.reader(file))]
-        if twin.exists():
-            return names, read_npy(twin, len(names))
         rows = [row.split(",") for row in file.read().split("\n")]
     whole = [row for row in rows if len(row) == len(names)]
     return names, numpy.array(whole, dtype=float).reshape(len(whole), len(names))

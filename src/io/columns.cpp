@@ -54,7 +54,7 @@ std::string title_of(const ColumnGroup& group) {
   return group.word.empty() ? group.sensor : group.sensor + ", " + group.word;
 }
 
-std::string columns_text(const records::HistoryHeader& header) {
+std::string columns_text(const records::HistoryHeader& header, const records::HistoryHeader* errors) {
   JsonText json;
   const auto column = [&](const std::string& name, const records::HistoryHeader::About& about) {
     json.begin_object();
@@ -64,15 +64,19 @@ std::string columns_text(const records::HistoryHeader& header) {
     json.member("part", about.part);
     json.end_object();
   };
+  const auto list = [&](const char* key, const records::HistoryHeader& of) {
+    json.key(key);
+    json.begin_array();
+    column("time", {of.runs_over_load ? "" : "s", of.runs_over_load ? "load_factor" : "time", ""});
+    column("step_size", {of.runs_over_load ? "" : "s", "step_size", ""});
+    column("iterations", {"", "iterations", ""});
+    for (std::size_t k = 0; k < of.columns.size(); ++k)
+      column(of.columns[k], k < of.about.size() ? of.about[k] : records::HistoryHeader::About{});
+    json.end_array();
+  };
   json.begin_object();
-  json.key("columns");
-  json.begin_array();
-  column("time", {header.runs_over_load ? "" : "s", header.runs_over_load ? "load_factor" : "time", ""});
-  column("step_size", {header.runs_over_load ? "" : "s", "step_size", ""});
-  column("iterations", {"", "iterations", ""});
-  for (std::size_t k = 0; k < header.columns.size(); ++k)
-    column(header.columns[k], k < header.about.size() ? header.about[k] : records::HistoryHeader::About{});
-  json.end_array();
+  list("columns", header);
+  if (errors != nullptr) list("errors", *errors);
   json.end_object();
   return json.text();
 }

@@ -9,6 +9,7 @@
 #include "bough/io/number_text.hpp"
 #include "bough/io/unfinished_run.hpp"
 #include "checkpoint_file.hpp"
+#include "measured_errors.hpp"
 
 namespace bough::io {
 namespace {
@@ -21,9 +22,9 @@ constexpr bool has_vtk = true;
 constexpr bool has_vtk = false;  // the code below it is not compiled, since vtu_text is not available
 #endif
 
-const std::vector<std::string> all_names = {"history.csv",  "history.npy",    "columns.json", "motion.bin",
-                                            "motion.pvd",   "motion/frame_*", "states.bin",   "summary.json",
-                                            "checkpoint.*", "progress.json"};
+const std::vector<std::string> all_names = {"history.csv",  "history.npy",  "columns.json",   "errors.csv",
+                                            "motion.bin",   "motion.pvd",   "motion/frame_*", "states.bin",
+                                            "summary.json", "checkpoint.*", "progress.json"};
 
 std::string frame_name(std::size_t number) {
   std::string digits = std::to_string(number);
@@ -307,10 +308,24 @@ std::exception_ptr RunDirectory::commit_files() {
   return failure;
 }
 
+std::exception_ptr RunDirectory::commit_errors(const records::MeasuredErrors& errors) {
+  try {
+    const std::string text = errors_csv(errors);
+    write_file(folder_->staging() / "errors.csv", text, Durability::soon);
+    list({"errors.csv", text.size(), digest_of(text)});
+    files_.emplace_back("errors.csv");
+  } catch (...) {
+    return std::current_exception();
+  }
+  return {};
+}
+
 void RunDirectory::end(const records::Summary& summary) {
   if (!history_) begin(summary.header);
   has_ended_ = true;
+  if (summary.errors) columns_ = columns_text(summary.header, &summary.errors->header);
   std::exception_ptr failure = commit_files();
+  if (summary.errors && !failure) failure = commit_errors(*summary.errors);
   if (!failure) {  // otherwise there is no summary, since the directory is incomplete
     try {
       folder_->write_index("summary.json", summary_text(summary, version_, origin_, records_));

@@ -97,6 +97,24 @@ Option arc_length() {
           }};
 }
 
+/// What runs beside the run tell of its errors. time_about: what the errors in time are of.
+Option errors(Literal time_about) {
+  Rule rule =
+      object_of("Twins of the run, which measure the errors of all results.",
+                {may("time", boolean_rule(""), time_about, "false"),
+                 may("mesh", boolean_rule(""),
+                     "Twins with half and a quarter of the elements of all beams, or with two and four times as "
+                     "many where these numbers cannot be halved.",
+                     "false")});
+  return {may("errors", made(std::move(rule)),
+              "Errors of the results, measured by further runs beside this one; bough plan tells what they cost. "
+              "Default: none are measured."),
+          [](const Value& v, Analysis& a) {
+            a.errors.time = v.find("time")->truth;
+            a.errors.mesh = v.find("mesh")->truth;
+          }};
+}
+
 Option step_control() {
   Rule rule = object_of("Step sizes chosen from the local error of each step (generalized_alpha).",
                         {may("tolerance", number_rule("", 0.0, true, 0.1),
@@ -128,7 +146,9 @@ std::vector<Option> static_options() {
           arc_length(),
           {may("unstable", boolean_rule(""),
                "Unstable equilibria are what is looked for: the run is not doubted because of them.", "false"),
-           [](const Value& v, Analysis& a) { a.unstable = v.truth; }}};
+           [](const Value& v, Analysis& a) { a.unstable = v.truth; }},
+          errors("A twin with twice as many load steps: equilibria do not depend on them, unless a step leads to "
+                 "another one.")};
 }
 
 std::vector<Option> dynamic_options() {
@@ -165,7 +185,8 @@ std::vector<Option> dynamic_options() {
            "which is no cure for stiff scenes [-].",
            "0.3"),
        [](const Value& v, Analysis& a) { a.newmark_beta = v.number; }},
-      step_control()};
+      step_control(),
+      errors("Twins with steps of twice and four times the size.")};
 }
 
 std::vector<Option> joined(std::vector<Option> options, const std::vector<Option>& further) {
@@ -187,7 +208,8 @@ const std::vector<KindOptions>& kinds() {
        {end_time(),
         step_size("Distance h of the times 0, h, 2 h, ... at which the motion is evaluated, besides those of expected "
                   "figures; no result depends on it [s]."),
-        max_cuts("Halvings of the way between two times where parts move far.")}}};
+        max_cuts("Halvings of the way between two times where parts move far."),
+        errors("There are none: nothing is integrated.")}}};
   return list;
 }
 

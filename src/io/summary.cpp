@@ -15,6 +15,7 @@
 #include "bough/io/number_text.hpp"
 #include "bough/io/output_folder.hpp"
 #include "bough/lanes/instruction_set.hpp"
+#include "measured_errors.hpp"
 
 namespace bough::io {
 namespace {
@@ -371,6 +372,7 @@ std::string summary_text(const records::Summary& summary, std::string_view versi
   write_sensors(json, summary);
   write_expected(json, summary.expected);
   write_measures(json, summary.measures);
+  if (summary.errors) write_measured_errors(json, *summary.errors);
   write_origin(json, origin, files);
   json.end_object();
   return json.text();

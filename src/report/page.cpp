@@ -9,6 +9,7 @@
 #include "bough/io/unfinished_run.hpp"
 #include "bough/report/document.hpp"
 #include "bough/report/plot.hpp"
+#include "error_bands.hpp"
 #include "round_off.hpp"
 #include "svg_text.hpp"
 #include "view_data.hpp"
@@ -82,12 +83,17 @@ void add_plots(Document& page, const RunFiles& run) {
   page.section("Sensors");
   std::string html = "<div id=\"plots\" class=\"plots\">\n";
   const std::vector<double> round_off = round_off_of(run);
+  const std::vector<std::vector<double>> bands = error_bands(run.history, run.errors);
+  if (!bands.empty())
+    page.paragraph("Thin lines are the measured errors above and below the values, in time and of the mesh together.",
+                   Tone::soft);
   for (std::size_t k = 0; k < std::min(groups.size(), most_plots); ++k) {
     const std::size_t first = groups[k].columns.front();
     const std::string unit =
         first < run.history.header.about.size() ? run.history.header.about[first].unit : std::string();
     const std::string title = io::title_of(groups[k]) + (unit.empty() ? "" : " [" + unit + "]");
-    html += "<figure>\n" + make_plot(run.history, title, groups[k].columns, time_label(run), round_off[first]).svg +
+    html += "<figure>\n" +
+            make_plot(run.history, title, groups[k].columns, time_label(run), round_off[first], bands).svg +
             "</figure>\n";
   }
   page.markup(html + "</div>\n");
@@ -192,6 +198,7 @@ RunFiles by_step(RunFiles run) {
     rows[k].values.insert(rows[k].values.begin(), rows[k].time);
     rows[k].time = static_cast<double>(k);
   }
+  run.errors = {};  // load factors of twins are not known by step
   run.is_by_step = true;
   return run;
 }
@@ -223,9 +230,10 @@ RunFiles read_run_once(const std::filesystem::path& directory, std::size_t max_f
   run.name = std::filesystem::absolute(directory).lexically_normal().stem().string();
   if (const auto unfinished = io::find_unfinished_run(directory))
     return read_run_so_far(*unfinished, run.name, max_frames);
-  run.summary = io::read_whole_summary(directory, {"history.csv", "columns.json", "motion.bin"});
+  run.summary = io::read_whole_summary(directory, {"history.csv", "columns.json", "errors.csv", "motion.bin"});
   run.history = io::read_history(directory / "history.csv");
   io::read_columns(directory / "columns.json", run.history.header);
+  if (std::filesystem::exists(directory / "errors.csv")) run.errors = io::read_history(directory / "errors.csv");
   if (!run.summary->scene.empty()) run.name = run.summary->scene;
   if (std::filesystem::exists(directory / "motion.bin")) {
     io::Motion motion = io::read_motion_file(directory / "motion.bin", max_frames);

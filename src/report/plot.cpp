@@ -49,11 +49,26 @@ struct Line {
   double offset = 0.0;
 };
 
-std::string column_path(const io::History& history, const Line& line, const Scale& scale) {
+/// shift: added to the values of all rows; empty: nothing.
+std::string column_path(const io::History& history, const Line& line, const Scale& scale,
+                        const std::vector<double>& shift = {}) {
   return curve_path(
       history.rows.size(), [&](std::size_t k) { return scale.to_x(history.rows[k].time); },
-      [&](std::size_t k) { return history.rows[k].values[line.column] - line.offset; },
+      [&](std::size_t k) {
+        return history.rows[k].values[line.column] - line.offset + (shift.empty() ? 0.0 : shift[k]);
+      },
       [&](double value) { return scale.to_y(value); });
+}
+
+/// The lines above and below a curve, each `half` away from it.
+std::string band_lines(const io::History& history, const Line& line, const Scale& scale, std::vector<double> half,
+                       const std::string& color) {
+  std::string text;
+  for (int side = 0; side < 2; ++side) {
+    text += path_element("bound " + color, column_path(history, line, scale, half));
+    for (double& h : half) h = -h;
+  }
+  return text;
 }
 
 /// If curves are so far apart that their variation would not be visible, each is drawn relative to its value at the
@@ -139,13 +154,17 @@ std::vector<std::string> tick_labels(const std::vector<double>& ticks) {
 }
 
 Plot make_plot(const io::History& history, const std::string& title, const std::vector<std::size_t>& columns,
-               std::string_view time_label, double round_off) {
+               std::string_view time_label, double round_off, const std::vector<std::vector<double>>& bands) {
   Range times, values;
   const std::vector<Line> lines = lines_of(history, columns);
   for (const records::HistoryRow& row : history.rows) {
     times.include(row.time);
     for (const Line& line : lines) values.include(row.values[line.column] - line.offset);
   }
+  for (std::size_t r = 0; r < (bands.empty() ? 0 : history.rows.size()); ++r)
+    for (const Line& line : lines)
+      for (const double half : {-bands[line.column][r], bands[line.column][r]})
+        values.include(history.rows[r].values[line.column] - line.offset + half);
   const double most = values.empty() ? 0.0 : std::max(std::abs(values.low), std::abs(values.high));
   const bool is_round_off = most > 0.0 && most <= round_off;
   // Curves of round-off lie on the line of zero.
@@ -169,6 +188,8 @@ Plot make_plot(const io::History& history, const std::string& title, const std::
   const double legend_y = needed > right ? 35.0 : 20.0;
   for (std::size_t k = columns.size(); k-- > 0;) {
     const std::string color = "curve s" + std::to_string(k % num_colors);
+    if (!bands.empty() && !is_round_off)
+      plot.svg += band_lines(history, lines[k], scale, bands[lines[k].column], "s" + std::to_string(k % num_colors));
     plot.svg += path_element(color, column_path(history, lines[k], scale));
     const std::string component = legend_text(history, lines[k], title);
     if (columns.size() < 2 || component.empty()) continue;

@@ -12,6 +12,7 @@ std::string_view style_text() {
 .grid{stroke:#e1e0d9;stroke-width:1}.axis{stroke:#a9a8a0;stroke-width:1}.mark{stroke:#52514e;stroke-width:1.5;fill:none}
 .beams,.bodies,.springs,.joints,.curve{fill:none;stroke-linecap:round;stroke-linejoin:round}
 .beams{stroke-width:2}.bodies{stroke-width:5;stroke-opacity:.55}.springs{stroke-width:1.5;stroke-dasharray:4 4}.joints{stroke-width:6}.curve{stroke-width:1.7}
+.bound{fill:none;stroke-width:.7;stroke-opacity:.7}
 .t0{stroke:#9ec5f4}.t1{stroke:#86b6ef}.t2{stroke:#6da7ec}.t3{stroke:#5598e7}.t4{stroke:#3987e5}
 .t5{stroke:#2a78d6}.t6{stroke:#1c5cab}.t7{stroke:#184f95}.t8{stroke:#0d366b}
 .s0{stroke:#2a78d6}.s1{stroke:#eb6834}.s2{stroke:#1baf7a}.s3{stroke:#4a3aa7}.s4{stroke:#e87ba4}.s5{stroke:#c98500}

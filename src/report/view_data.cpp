@@ -12,6 +12,7 @@
 #include "bough/io/number_text.hpp"
 #include "bough/motion/quaternion.hpp"
 #include "bough/scene/joint_kinds.hpp"
+#include "error_bands.hpp"
 #include "packed.hpp"
 #include "round_off.hpp"
 #include "view_plots.hpp"
@@ -526,7 +527,7 @@ std::string view_data(const RunFiles& run, std::size_t most_bytes) {
     for (const records::Curve& c : frames.front()->curves) num_points += c.points.size();
   for (bool with_strains = num_points <= many_points;; with_strains = false) {
     Arrays arrays;
-    const std::string plots = plot_data(run.history, round_off_of(run), arrays);
+    const std::string plots = plot_data(run.history, round_off_of(run), error_bands(run.history, run.errors), arrays);
     const std::string motion =
         frames.empty()
             ? "\"times\":[],\"curves\":[],\"bodies\":[],\"links\":[],\"frames\":[],\"arrows\":[],\"signals\":[]"

@@ -55,7 +55,8 @@ double middle_of(const std::vector<double>& values) {
 
 }  // namespace
 
-std::string plot_data(const io::History& history, const std::vector<double>& round_off, Arrays& arrays) {
+std::string plot_data(const io::History& history, const std::vector<double>& round_off,
+                      const std::vector<std::vector<double>>& bands, Arrays& arrays) {
   std::string json = "[";
   if (history.rows.empty()) return json + "]";
   const std::vector<io::ColumnGroup> groups = io::group_columns(history.header.columns);
@@ -88,6 +89,12 @@ std::string plot_data(const io::History& history, const std::vector<double>& rou
       if (middle != 0.0) {
         json += ",\"from\":";
         io::append_number(json, middle);
+      }
+      if (!bands.empty()) {
+        std::vector<float> band;
+        for (const std::size_t r : rows) band.push_back(static_cast<float>(bands[c][r]));
+        arrays.add(name + ".e", "f32", band);
+        json += ",\"errors\":\"" + name + ".e\"";
       }
       json += '}';
     }

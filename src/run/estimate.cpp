@@ -8,6 +8,7 @@
 #include "bough/scene/analysis_kinds.hpp"
 #include "bough/scene/components.hpp"
 #include "bough/scene/problems.hpp"
+#include "twin_scenes.hpp"
 
 namespace bough::run {
 
@@ -16,8 +17,8 @@ namespace {
 // Fitted by hand to the resident memory of runs in space: one beam of 20000 elements of order 1 (370 MB) and 3 (519
 // MB), 5000 bodies on revolute joints (206 MB), lattices of 40 x 40 and 80 x 80 nodes (54 and 179 MB). Runs in a plane
 // take 0.45 to 0.6 of these.
-constexpr double program = 15e6, of_node = 10e3, of_inner_node = 5e3, of_element = 7.5e3, of_joint = 28e3,
-                 of_spring = 6e3, of_loop = 700.0;
+constexpr double of_node = 10e3, of_inner_node = 5e3, of_element = 7.5e3, of_joint = 28e3, of_spring = 6e3,
+                 of_loop = 700.0;
 constexpr double line_part = 0.4;      ///< memory of motion on a line, relative to motion in space
 constexpr double planar_part = 0.6;    ///< the same for motion in a plane
 constexpr double of_unknown = 0.2e-6;  ///< time per step and unknown [s], as `bough plan` gives for a chain
@@ -76,8 +77,9 @@ Estimate estimate_run(const scene::Scene& scene) {
   for (const scene::Joint& j : scene.joints)
     e.unknowns += static_cast<double>(scene::type_of(j.kind).rows.size() + j.drives.size());
   const double loops = std::max(0.0, static_cast<double>(scene.beams.size()) + e.joints + links - ends);
-  e.memory_bytes = program + of_node * (e.nodes - inner) + of_inner_node * inner + of_element * e.elements +
-                   of_joint * e.joints + of_spring * (links + loads) + of_loop * loops * std::log2(loops + 1.0);
+  e.memory_bytes = Estimate::program_bytes + of_node * (e.nodes - inner) + of_inner_node * inner +
+                   of_element * e.elements + of_joint * e.joints + of_spring * (links + loads) +
+                   of_loop * loops * std::log2(loops + 1.0);
   e.elements += static_cast<double>(scene.bodies.size()) + links + loads;
   e.steps = steps_of(scene.analysis);
   e.step_seconds = of_unknown * e.unknowns;
@@ -87,6 +89,11 @@ Estimate estimate_run(const scene::Scene& scene) {
 std::string refusal(const scene::Scene& scene, double limit) {
   const Estimate e = estimate_run(scene);
   double bytes = e.memory_bytes;
+  std::string beside;
+  if (bytes <= limit && scene.analysis.errors.any()) {
+    for (const Twin& t : make_twins(scene).members) bytes += estimate_run(t.scene).scene_bytes();
+    beside = " with the twins that measure its errors";
+  }
   if (bytes <= limit) return "";
   std::string taken_as = "";
   if (line_part * bytes <= limit) {
@@ -95,10 +102,10 @@ std::string refusal(const scene::Scene& scene, double limit) {
     if (bytes <= limit) return "";
     if (!motions) taken_as = ", of a motion in space, for which so large a scene is taken";
   }
-  return "a run would take about " + megabytes(bytes) + " of memory" + taken_as + ", and " + megabytes(limit) +
-         " are there: " + rounded(e.nodes) + " nodes, " + rounded(e.elements) + " elements, " + rounded(e.unknowns) +
-         " unknowns in space, " + rounded(e.steps) + " steps of about " + rounded(1e3 * e.step_seconds) +
-         " ms on one thread; take fewer elements, or allow more with --memory-limit";
+  return "a run" + beside + " would take about " + megabytes(bytes) + " of memory" + taken_as + ", and " +
+         megabytes(limit) + " are there: " + rounded(e.nodes) + " nodes, " + rounded(e.elements) + " elements, " +
+         rounded(e.unknowns) + " unknowns in space, " + rounded(e.steps) + " steps of about " +
+         rounded(1e3 * e.step_seconds) + " ms on one thread; take fewer elements, or allow more with --memory-limit";
 }
 
 }  // namespace bough::run

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bough/plan/plan.hpp"
+#include "bough/records/archive.hpp"
 
 namespace bough::run {
 

@@ -12,6 +12,7 @@ struct EndedRun {
   const step::State& state;
   Recording& recording;
   Analysis& analysis;
+  scene::ErrorsWanted measured;  ///< by twins
 };
 
 /// Completes the summary: counts and times of the work, checks, figures, properties of the last factorization, doubts.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bough/plan/plan.hpp"
+#include "bough/records/archive.hpp"
 
 namespace bough::run {
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bough/plan/plan.hpp"
+#include "bough/records/archive.hpp"
 #include "bough/step/step_control.hpp"
 
 namespace bough::run {

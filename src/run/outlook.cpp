@@ -11,6 +11,7 @@
 #include "bough/step/step_cost.hpp"
 #include "bough/step/system.hpp"
 #include "trial_steps.hpp"
+#include "twin_scenes.hpp"
 
 namespace bough::run {
 
@@ -123,6 +124,15 @@ const char* words(plan::Motions motions) {
   return "in space";
 }
 
+std::vector<OutlookTwin> twins_of(const scene::Scene& scene, const Outlook& out) {
+  std::vector<OutlookTwin> list;
+  const double own = estimate_run(scene).scene_bytes();
+  for (const Twin& t : make_twins(scene).members)
+    list.push_back({text_of(t), t.cost * out.steps * out.effort.step_seconds(),
+                    static_cast<double>(out.effort.memory_bytes) * estimate_run(t.scene).scene_bytes() / own});
+  return list;
+}
+
 }  // namespace
 
 double forecast_seconds(const scene::Scene& scene) {
@@ -162,6 +172,8 @@ Outlook look_ahead(const scene::Scene& scene) {
   out.fronts_in_lanes = static_cast<int>(counters.fronts_in_lanes);
   out.steps = estimate_run(scene).steps;
   out.process_bytes = program_bytes + out.effort.memory_bytes;
+  out.twins = twins_of(scene, out);
+  for (const OutlookTwin& t : out.twins) out.process_bytes += static_cast<std::int64_t>(t.memory_bytes);
   out.mobility = plan.mobility;
   out.notes = plan.notes;
   for (const plan::Decision& d : plan.decisions) {

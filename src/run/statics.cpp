@@ -21,7 +21,7 @@ void Statics::add_doubts() {
 /// Branches: an equilibrium is found from the one before it, whether or not there are others under the same loads.
 std::string Statics::not_judged() const {
   const std::string stability = stability_.not_examined();
-  return one_line({plan_.beams.empty() ? "" : the_mesh, stability,
+  return one_line({plan_.beams.empty() || asked_.measured.mesh ? "" : the_mesh, stability,
                    summary().follows_path ? "" : "other branches of equilibria are not looked for"});
 }
 

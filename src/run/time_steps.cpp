@@ -367,9 +367,10 @@ void TimeSteps::add_doubts() {
 
 std::string TimeSteps::not_judged() const {
   const bool is_hidden = HiddenMotions::are_in(plan_) && !plan_.beams.empty() && hidden_known_ == 0;
-  return one_line({error_not_judged(plan_, options_, scene_.output.checks, summary().sensor_errors),
-                   plan_.beams.empty() ? "" : the_mesh,
-                   is_hidden ? "stability " + HiddenMotions::where(plan_) + " is not examined" : ""});
+  return one_line(
+      {asked_.measured.time ? "" : error_not_judged(plan_, options_, scene_.output.checks, summary().sensor_errors),
+       plan_.beams.empty() || asked_.measured.mesh ? "" : the_mesh,
+       is_hidden ? "stability " + HiddenMotions::where(plan_) + " is not examined" : ""});
 }
 
 }  // namespace bough::run

@@ -83,10 +83,10 @@ void doubt_errors(const records::Summary& s, const TrustLimits& limits, const Tr
   if (all.empty()) {
     const double sum = s.checks.local_error_sum;
     if (s.checks.local_error_known && passes(sum, limits.local_error_sum))
-      doubts.push_back({"error", "the local errors of the steps add up to " + number(100.0 * sum) +
-                                     " % of the size of the structure (or of 1 rad); " +
-                                     remedy(s, sum / limits.local_error_sum) + " would make it less than " +
-                                     number(100.0 * limits.local_error_sum) + " %"});
+      doubts.push_back({more.about_estimate, "the local errors of the steps add up to " + number(100.0 * sum) +
+                                                 " % of the size of the structure (or of 1 rad); " +
+                                                 remedy(s, sum / limits.local_error_sum) + " would make it less than " +
+                                                 number(100.0 * limits.local_error_sum) + " %"});
     return;
   }
   const auto is_wrong = [&](const records::SensorError& e) { return passes(e.relative(), limits.sensor_error); };
@@ -97,7 +97,7 @@ void doubt_errors(const records::Summary& s, const TrustLimits& limits, const Tr
   });
   const double error = worst.of_steps + worst.of_energy;
   doubts.push_back(
-      {"error",
+      {more.about_estimate,
        "'" + worst.column + "' is " +
            (worst.relative() > 1.0
                 ? "wrong altogether by the end, off by more than the " + number(worst.range) + " over which it ranges"

@@ -48,6 +48,9 @@ struct TrustLimits {
   double rejected = 0.1;
 };
 
+/// What doubts of estimated errors are about in a run with twins.
+inline constexpr const char* estimate_beside_twins = "estimated error";
+
 /// What doubts take into account besides the summary.
 struct TrustContext {
   /// Errors of reactions below `TrustLimits::unbalanced` times this do not count, where all reactions are zero but for
@@ -55,6 +58,8 @@ struct TrustContext {
   double least_force = 0.0;
   /// Of sensitive motions: the time in which an error grows by e, at the end [s]; 0: it grows no faster than a power.
   double errors_grow_in = 0.0;
+  /// What doubts of the estimated errors are about: where twins measure errors, these may take their place.
+  const char* about_estimate = "error";
 };
 
 /// Describes the given initial velocities that the start has changed: the three largest changes, with given and actual

@@ -326,6 +326,9 @@ void check_analysis(ProblemList& list) {
   if (a.step_control && a.newton == Newton::single)
     list.add("analysis", 0, "newton", "single", "errors of steps are known only where these are solved to convergence",
              "leave out newton or step_control");
+  if (a.step_control && a.errors.any())
+    list.add("analysis", 0, "errors", "", "twins are compared with runs of equal steps, at equal times",
+             "leave out errors or step_control");
   const auto frame_moves = [](const FrameDef& f) { return f.motion.has_value(); };
   if (is_variational && std::any_of(s.frames.begin(), s.frames.end(), frame_moves))
     list.add("analysis", 0, "integrator", "variational", "the variational integrator does not know frames that move",

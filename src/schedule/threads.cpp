@@ -15,10 +15,9 @@
 #include "bough/blocks/at.hpp"
 #include "bough/schedule/serial.hpp"
 #ifdef BOUGH_HAS_TBB
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
 #include <tbb/task_group.h>
+
+#include "arena.hpp"
 #endif
 
 namespace bough::schedule {
@@ -135,13 +134,6 @@ class Offer {
   std::atomic<int> helpers_{0};
 };
 
-/// oneTBB looks without a lock whether a global_control lives when an arena starts (2021.8, found by the thread
-/// sanitizer). Runs beside each other in one process start and end theirs one by one.
-std::mutex& arenas_start() {
-  static std::mutex mutex;
-  return mutex;
-}
-
 }  // namespace
 #endif
 
@@ -165,11 +157,6 @@ struct Threads::State {
   std::atomic<unsigned> delay_state{1};
 
 #ifdef BOUGH_HAS_TBB
-  ~State() {
-    const std::lock_guard lock(arenas_start());
-    allowance.reset();
-  }
-
   /// A sub-domain above the grain, or a whole subtree below it.
   struct Part {
     tree::SubdomainId top = 0;
@@ -179,9 +166,7 @@ struct Threads::State {
     std::atomic<bool> is_taken{false}, is_done{false};
   };
 
-  tbb::task_arena arena;
-  std::once_flag is_started;
-  std::unique_ptr<tbb::global_control> allowance;  ///< oneTBB needs it for more threads than the machine has
+  Arena arena{count};
 
   bool is_together = false;
   std::atomic<bool> is_ending{false};
@@ -195,24 +180,11 @@ struct Threads::State {
   Offer walks;
   std::vector<Offer> loops;  ///< by member: of a visit, or outside of walks
 
-  /// Starts the arena with its threads if necessary. TBB takes a third of a millisecond to examine the machine, so a
-  /// run without tasks does not start it.
-  tbb::task_arena& started() {
-    std::call_once(is_started, [this] {
-      const std::lock_guard lock(arenas_start());
-      if (count > tbb::info::default_concurrency())
-        allowance = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                          static_cast<std::size_t>(count));
-      arena.initialize(count);
-    });
-    return arena;
-  }
-
   /// Runs `body` in the arena. From its first walk or loop on, tasks keep the other threads at hand.
   template <class Body>
   void keep_together(const Body& body) {
     if (is_together) return body();
-    started().execute([&] {
+    arena.started().execute([&] {
       struct End {
         State& state;
         ~End() {

@@ -219,7 +219,9 @@ std::optional<LinearSystem> make_linear_system(const scene::Scene& scene, const 
     return false;
   };
   records::NoRecorder recorder;
-  const records::Summary summary = run::simulate(scene, options, recorder);
+  scene::Scene alone = scene;
+  alone.analysis.errors = {};
+  const records::Summary summary = run::simulate(alone, options, recorder);
   if (!out)
     cause = summary.status == records::RunStatus::failed
                 ? summary.cause

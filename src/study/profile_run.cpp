@@ -52,7 +52,9 @@ WatchedRun watch_run(const scene::Scene& scene, const WatchedRunOptions& options
       marks.emplace_back(mark_begin, watch->now());
     return progress ? progress(p) : true;
   };
-  run.summary = run::simulate(scene, simulate_options, recorder, on_step);
+  scene::Scene alone = scene;
+  alone.analysis.errors = {};  // twins beside it would take its processors
+  run.summary = run::simulate(alone, simulate_options, recorder, on_step);
   return run;
 }
 

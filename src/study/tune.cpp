@@ -156,6 +156,7 @@ class Tuner {
     scene::Scene scene = scene_;
     scene.solver = c.solver;
     scene.output.checks = false;
+    scene.analysis.errors = {};
     const double seconds = time_run(scene, options_, c.failure);
     if (c.failure.empty()) c.seconds.push_back(seconds);
     ++done_;

@@ -28,8 +28,9 @@ std::string title_of(const ColumnGroup& group);
 
 /// `columns.json` describes the columns of history.csv,
 ///   {"columns":[{"name","unit","quantity","part"},...]}
-/// first time, step_size and iterations, then those of the sensors. A load factor is a "time" without a unit.
-std::string columns_text(const records::HistoryHeader& header);
+/// first time, step_size and iterations, then those of the sensors. A load factor is a "time" without a unit. Where errors
+/// were measured, the columns of errors.csv follow under "errors".
+std::string columns_text(const records::HistoryHeader& header, const records::HistoryHeader* errors = nullptr);
 
 /// Adds the descriptions in a `columns.json` to the header of a history. Leaves `about` empty if there is no such file
 /// (runs of earlier versions). Throws std::runtime_error naming the file if it has other content.

@@ -3,6 +3,7 @@
 ///   history.csv    the sensors
 ///   history.npy    the same of more than 10 000 rows, for NumPy
 ///   columns.json   unit, quantity and part of each of its columns
+///   errors.csv     errors of all columns at the times of the history, where the analysis wants them measured
 ///   motion.pvd, motion/frame_000000.vtu ..., motion.bin   where motion is recorded
 ///                  (a build without BOUGH_WITH_VTK writes motion.bin only)
 ///   states.bin     states from which other scenes can start (stored_states.hpp)
@@ -117,6 +118,7 @@ class RunDirectory final : public records::Recorder {
   void settle_checkpoints(records::RunStatus status);
   /// Gives the files their names; returns the first failure.
   std::exception_ptr commit_files();
+  std::exception_ptr commit_errors(const records::MeasuredErrors& errors);
   void list(FileRecord record);
 
   std::filesystem::path directory_;

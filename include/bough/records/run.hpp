@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -276,6 +277,8 @@ struct MeasureResult {
 /// value.
 using EffectiveOptions = std::vector<std::pair<std::string, std::string>>;
 
+struct MeasuredErrors;  // errors.hpp
+
 struct Summary {
   RunStatus status = RunStatus::failed;
   std::string cause;
@@ -307,6 +310,7 @@ struct Summary {
   std::vector<LevelFigures> levels;  ///< of the hierarchical solver
   std::vector<std::pair<std::string, double>>
       solver;  ///< figures of the tree: sub-domains, levels, interface unknowns, condition, ...
+  std::shared_ptr<const MeasuredErrors> errors;  ///< by twins of the run; null: none ran
   /// What changes while the run goes on; the rest follows from the scene, or is completed at the end.
   void checkpoint(Archive& archive) {
     archive(status, cause, options, steps, times, checks, changed_velocities, limit_points, bifurcations, notes,

@@ -16,6 +16,7 @@ struct RunFiles {
   std::string name;
   std::optional<io::SummaryFile> summary;  ///< none: the run did not end
   io::History history;
+  io::History errors = {};                   ///< of errors.csv; no rows: none were measured
   std::vector<records::MotionFrame> motion;  ///< empty: not recorded
   records::MotionParts parts;                ///< of it
   bool is_by_step = false;                   ///< times are numbers of steps: see by_step()

@@ -16,12 +16,15 @@ struct Estimate {
   double memory_bytes = 0.0;  ///< of the whole process
   double step_seconds = 0.0;  ///< on one thread
   double seconds() const { return steps * step_seconds; }
+  double scene_bytes() const { return memory_bytes - program_bytes; }  ///< without the program itself
+
+  static constexpr double program_bytes = 15e6;
 };
 
 /// Cost: one pass over the lists of the scene. Precondition: problems_in(scene) is empty.
 Estimate estimate_run(const scene::Scene& scene);
 
-/// Empty if a run stays within `limit` bytes; else a message with the numbers and a remedy. Motion in a plane or
+/// Empty if a run, and the twins that its analysis wants beside it, stay within `limit` bytes; else a message with the numbers and a remedy. Motion in a plane or
 /// without rotation takes about half of the memory; a plan is made only if this decides, of a scene whose plan would take
 /// long with few elements a beam, and not where that is too large as well: it is taken to move in space.
 std::string refusal(const scene::Scene& scene, double limit);

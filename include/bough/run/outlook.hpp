@@ -34,6 +34,12 @@ struct OutlookDecision {
   Effort without;           ///< cost of a step without this decision
 };
 
+/// A run beside the run, which measures an error of it (scene::ErrorsWanted).
+struct OutlookTwin {
+  std::string what;                          ///< "steps 2 times as long", "0.5 times as many elements"
+  double seconds = 0.0, memory_bytes = 0.0;  ///< those of the run, in the proportion of their estimates (Estimate)
+};
+
 struct Outlook {
   std::string scene, title;
   std::size_t nodes = 0, elements = 0, joints = 0;
@@ -43,9 +49,10 @@ struct Outlook {
   int sub_domains = 0, leaves = 0, levels = 0, fronts_in_lanes = 0, fronts = 0;
   Effort effort;
   double steps = 0.0;              ///< equal steps or load steps; with error control, as many as of the first size
-  std::int64_t process_bytes = 0;  ///< estimated peak of the process: the program and memory_bytes
+  std::int64_t process_bytes = 0;  ///< estimated peak of the process: the program, memory_bytes and those of twins
   plan::Mobility mobility;
   std::vector<OutlookDecision> decisions;
+  std::vector<OutlookTwin> twins;
   std::vector<std::string> notes;
 };
 

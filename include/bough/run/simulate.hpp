@@ -28,6 +28,8 @@ struct SimulateOptions {
   std::vector<double> stops = {};
   /// Called at each of these stops that the run reaches, with the values of all sensors in the order of the header.
   std::function<void(double time, const std::vector<double>& values)> sample = {};
+  /// Errors that twins beside this run measure: it does not list them as not examined.
+  scene::ErrorsWanted measured = {};
   /// Called before every attempt of a step, with the state it starts from. If it returns false, the run ends here as
   /// interrupted, and the system is no longer used.
   std::function<bool(step::System&, const step::State&, const BeforeStep&)> before_step = {};
@@ -48,7 +50,9 @@ double start_time(const records::StoredState& from);
 /// Called after every accepted step. If it returns false, the run ends here as interrupted.
 using ProgressCallback = std::function<bool(const records::Progress&)>;
 
-/// Runs a scene. Precondition: problems_in(scene) is empty. Failures of the run are reported in the summary, never
+/// Runs a scene, beside twins of it where its analysis wants errors measured (scene::ErrorsWanted): these get the
+/// threads, the start and the requests to stop of the options, and nothing else of them; the recorder gets the rows of
+/// the run itself, and the summary with the errors. Precondition: problems_in(scene) is empty. Failures of the run are reported in the summary, never
 /// thrown; an exception of the recorder (std::runtime_error) also ends the run as failed. The recorder's `end` is
 /// called in every case but that one.
 records::Summary simulate(const scene::Scene& scene, const SimulateOptions& options, records::Recorder& recorder,

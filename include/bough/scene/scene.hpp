@@ -341,6 +341,14 @@ struct ArcLength {
                                ///< points
 };
 
+/// Errors of the results that a run measures. Further runs beside it, its twins, have other steps or other meshes, and
+/// what they differ by tells how far the run is from the limit of small steps and fine meshes.
+struct ErrorsWanted {
+  bool time = false;  ///< of the step size; in statics of the load steps
+  bool mesh = false;  ///< of the numbers of elements of all beams
+  bool any() const { return time || mesh; }
+};
+
 /// Where dynamics begins: in the poses that the scene gives, or in the equilibrium under the loads of t = 0.
 enum class StartKind : std::uint8_t { given, equilibrium };
 
@@ -368,6 +376,7 @@ struct Analysis {
   double tolerance = 1e-8;  ///< of relative motions and of residuals relative to their contributions [-]
   int max_iterations = 20;
   int max_cuts = 10;  ///< halvings of a step before the run fails
+  ErrorsWanted errors;
 };
 
 /// How the linear system is solved along the tree of sub-domains, or as a whole.

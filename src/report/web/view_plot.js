@@ -212,6 +212,12 @@ class Plot {
     svg(box, "line", {class: "axis", x1: this.left, x2: this.right, y1: this.bottom, y2: this.bottom});
     this.series.forEach((s, k) => {
       const scale = shared || this.scaleOf([s]);
+      if (s.errors)
+        for (const side of [-1, 1])
+          svg(box, "path", {
+            class: "bound s" + (s.color === undefined ? k % 6 : s.color),
+            d: this.pathOf({times: s.times, values: s.values.map((v, r) => v + side * s.errors[r])}, scale, yOf),
+          });
       svg(box, "path", {
         class: "curve s" + (s.color === undefined ? k % 6 : s.color) + (s.dashed ? " d1" : ""),
         d: this.pathOf(s, scale, yOf),
@@ -283,7 +289,9 @@ class Plot {
     this.series.forEach((s, k) => {
       const item = make(this.reading, "span", {class: "key s" + (s.color === undefined ? k % 6 : s.color)});
       make(item, "i", {class: s.dashed ? "dashed" : ""});
-      item.append((s.label ? s.label + " " : "") + number(valueAt(s.times, s.values, time), 5));
+      const off = s.errors ? valueAt(s.times, s.errors, time) : NaN;
+      item.append((s.label ? s.label + " " : "") + number(valueAt(s.times, s.values, time), off < Infinity ? 7 : 5));
+      if (off < Infinity) item.append(" ± " + number(off, 2));
     });
     if (this.unit) make(this.reading, "span", {}, this.unit);
   }

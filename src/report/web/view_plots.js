@@ -11,7 +11,8 @@ function startPlots(view) {
     return plot.columns.map(function (c, k) {
       const around = run.data[c.values], // in single precision from a number of double precision, where that is given
         values = c.from ? Float64Array.from(around, (v) => c.from + v) : around;
-      return {label: c.label + mark, times: times, values: values, dashed: dashed, color: k % 6, digits: c.from ? 15 : 8};
+      const errors = c.errors && run.data[c.errors]; // how far values may be off
+      return {label: c.label + mark, times, values, errors, dashed, color: k % 6, digits: c.from ? 15 : 8};
     });
   };
   const onTime = function (time, isHover) {

@@ -109,6 +109,7 @@ scene::Scene study_scene(const io::StudySpec& spec, const std::vector<std::strin
 SampledRun run_sampled(scene::Scene scene, const std::vector<double>& sample_times, int threads,
                        const RunLimits& limits) {
   scene.output = {};
+  scene.analysis.errors = {};
   scene.output.checks = false;
   scene.output.stride = no_rows;
   SampledRun run;
@@ -128,6 +129,7 @@ SampledRun run_sampled(scene::Scene scene, const std::vector<double>& sample_tim
 TimedRun run_timed(scene::Scene scene, const std::vector<double>& sample_times, int threads, const RunLimits& limits,
                    bool count_instructions) {
   scene.output = {};
+  scene.analysis.errors = {};
   scene.output.checks = false;
   scene.output.stride = no_rows;
   TimedRun run;

@@ -1,0 +1,152 @@
+#include "extrapolation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bough/io/number_text.hpp"
+
+namespace bough::run {
+
+using records::ErrorPart;
+using records::ErrorState;
+
+namespace {
+
+/// How far D may be from q d, over q times the largest d. Below: an error of first order as large as one third of the
+/// second-order one already takes a quarter off, and makes the prediction half of the truth. Above: the next term of
+/// the series, which grows sixteenfold, adds a whole q d to D where it is 7 % of the error.
+constexpr double most_below = 0.25, most_above = 1.0;
+
+class Magnitudes {
+ public:
+  Magnitudes(const std::vector<double>& values, std::size_t width) : values_(values), width_(width) {}
+  std::size_t size() const { return values_.size() / width_; }
+  double at(std::size_t k) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < width_; ++i) sum = std::hypot(sum, values_[k * width_ + i]);
+    return sum;
+  }
+  double largest() const {
+    double most = 0.0;
+    for (std::size_t k = 0; k < size(); ++k) most = std::max(most, at(k));
+    return most;
+  }
+  double root_mean_square() const {
+    double sum = 0.0;
+    for (const double v : values_) sum += v * v;
+    return size() == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(size()));
+  }
+  std::size_t place_of_largest() const {
+    std::size_t place = 0;
+    for (std::size_t k = 1; k < size(); ++k)
+      if (at(k) > at(place)) place = k;
+    return place;
+  }
+
+ private:
+  const std::vector<double>& values_;
+  std::size_t width_;
+};
+
+/// Number of times from the start up to which the differences are those of an error of this order; and how far they are
+/// from it, over q times the largest.
+struct Fit {
+  std::size_t good = 0;
+  double distance = 0.0;
+};
+
+Fit fit(const MemberDifferences& d, double q, double round_off) {
+  const std::size_t times = d.fine.size() / d.width;
+  Fit fit;
+  double largest = round_off, square = 0.0;
+  bool is_good = true;
+  for (std::size_t k = 0; k < times; ++k) {
+    double along = 0.0, length = 0.0, off = 0.0;
+    for (std::size_t i = k * d.width; i < (k + 1) * d.width; ++i) {
+      const double delta = d.coarse[i] - q * d.fine[i];
+      along += delta * d.fine[i];
+      length += d.fine[i] * d.fine[i];
+      off += delta * delta;
+    }
+    largest = std::max(largest, std::sqrt(length));
+    square += off;
+    const double most = (along > 0.0 ? most_above : most_below) * q * largest;
+    is_good = is_good && std::sqrt(off) <= most;
+    if (is_good) fit.good = k + 1;
+  }
+  const double size = q * Magnitudes(d.fine, d.width).root_mean_square();
+  fit.distance = size > 0.0 ? std::sqrt(square) / size : std::numeric_limits<double>::max();
+  return fit;
+}
+
+double log2_ratio(double above, double below) {
+  return above > 0.0 && below > 0.0 ? std::log2(above / below) : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Limit minus run.
+std::vector<double> error_of(const MemberDifferences& d, int run, double q) {
+  std::vector<double> error = d.fine;
+  for (std::size_t i = 0; i < error.size(); ++i) {
+    error[i] /= q - 1.0;
+    if (run >= 1) error[i] += d.fine[i];
+    if (run >= 2) error[i] += d.coarse[i];
+  }
+  return error;
+}
+
+}  // namespace
+
+Extrapolation extrapolate(const MemberDifferences& d, std::span<const double> times, int run,
+                          const ErrorTheory& theory) {
+  Extrapolation result;
+  ErrorPart& part = result.part;
+  const Magnitudes fine(d.fine, d.width), coarse(d.coarse, d.width);
+  if (fine.size() == 0) return result;
+  part.theoretical_order = theory.orders.front();
+  const auto tell = [&part, times](const Magnitudes& m) {
+    part.largest = m.largest();
+    part.root_mean_square = m.root_mean_square();
+    part.when = times[m.place_of_largest()];
+  };
+  if (fine.largest() <= theory.round_off && coarse.largest() <= theory.round_off) {
+    part.state = ErrorState::round_off;
+    part.largest = part.root_mean_square = theory.round_off;
+    return result;
+  }
+  double order = theory.orders.front();
+  Fit best;
+  if (coarse.size() == 0) {
+    part.state = ErrorState::unexamined;
+  } else {
+    part.order_of_largest = log2_ratio(coarse.largest(), fine.largest());
+    part.order_of_root_mean_square = log2_ratio(coarse.root_mean_square(), fine.root_mean_square());
+    for (const double p : theory.orders) {
+      const Fit f = fit(d, std::exp2(p), theory.round_off);
+      if (f.good < best.good || (f.good == best.good && f.good > 0 && f.distance >= best.distance)) continue;
+      best = f;
+      order = p;
+    }
+    part.state = best.good == fine.size() ? ErrorState::resolved : ErrorState::not_resolved;
+  }
+  part.theoretical_order = order;
+  if (part.state != ErrorState::not_resolved) {
+    result.error = error_of(d, run, std::exp2(order));
+    tell(Magnitudes(result.error, d.width));
+    part.at_end = d.width == 1 ? result.error.back() : Magnitudes(result.error, d.width).at(fine.size() - 1);
+    return result;
+  }
+  if (fine.largest() <= theory.floor && coarse.largest() <= theory.floor) {
+    part.state = ErrorState::round_off;
+    part.largest = part.root_mean_square = theory.floor;
+    return result;
+  }
+  const bool is_of_coarsest = run == 2;
+  tell(is_of_coarsest ? coarse : fine);
+  if (best.good > 0 && best.good < fine.size())
+    part.cause = "from " + io::rounded_text(times[best.good], 4) + " on members do not differ as an error of order " +
+                 io::rounded_text(order, 2) + " does";
+  return result;
+}
+
+}  // namespace bough::run

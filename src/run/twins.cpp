@@ -1,0 +1,232 @@
+#include "twins.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+
+#include "bough/run/simulation.hpp"
+#include "bough/scene/analysis_kinds.hpp"
+#include "bough/schedule/side_by_side.hpp"
+#include "error_doubts.hpp"
+#include "twin_errors.hpp"
+
+namespace bough::run {
+
+using records::RunStatus;
+
+namespace {
+
+/// Passes a run on to its recorder, all but the end, and keeps its rows.
+class Relay final : public records::Recorder {
+ public:
+  explicit Relay(records::Recorder& to) : to_(to) {}
+
+  void begin(const records::HistoryHeader& header) override { to_.begin(header); }
+  void row(const records::HistoryRow& row) override {
+    rows.push_back(row);
+    to_.row(row);
+  }
+  void motion(const records::MotionFrame& frame) override { to_.motion(frame); }
+  void parts(const records::MotionParts& parts) override { to_.parts(parts); }
+  void end(const records::Summary&) override {}
+  bool keeps_states() const override { return to_.keeps_states(); }
+  void state(const records::StoredState& state) override { to_.state(state); }
+  bool keeps_checkpoints() const override { return to_.keeps_checkpoints(); }
+  bool is_checkpoint_due(double time, bool is_last) override { return to_.is_checkpoint_due(time, is_last); }
+  void checkpoint(std::string_view state) override { to_.checkpoint(state); }
+  std::string resume(const records::HistoryHeader& header) override {
+    std::string state = to_.resume(header);
+    goes_on = !state.empty();
+    return state;
+  }
+
+  std::vector<records::HistoryRow> rows;
+  bool goes_on = false;  ///< the run goes on from a checkpoint, and rows before it are not here
+
+ private:
+  records::Recorder& to_;
+};
+
+/// Keeps the rows of a twin.
+class RowKeeper final : public records::Recorder {
+ public:
+  explicit RowKeeper(MemberSeries& to) : to_(to) {}
+  void begin(const records::HistoryHeader&) override {}
+  void row(const records::HistoryRow& row) override {
+    to_.times.push_back(row.time);
+    to_.values.push_back(row.values);
+  }
+  void motion(const records::MotionFrame&) override {}
+  void end(const records::Summary&) override {}
+
+ private:
+  MemberSeries& to_;
+};
+
+/// Times at which members are compared in dynamics: ends of the longest steps of any member, about as dense as the rows of
+/// the history.
+std::vector<double> times_to_compare(const scene::Scene& scene, double start, const Twins& twins) {
+  constexpr double most = 1e5, round_off = 1e-9;
+  double longest = 1.0;
+  for (const Twin& t : twins.members)
+    if (!t.is_of_mesh) longest = std::max(longest, t.factor);
+  const double end = scene.analysis.end_time, step = longest * scene.analysis.step_size;
+  const double every =
+      std::max({1.0, std::round(scene.output.stride / longest), std::ceil((end - start) / (most * step))});
+  std::vector<double> times;
+  for (double k = 0.0; start + k * every * step < end - round_off * step; ++k)
+    times.push_back(start + k * every * step);
+  times.push_back(end);
+  return times;
+}
+
+/// A run and its twins while they go on.
+class SideBySide {
+ public:
+  SideBySide(const scene::Scene& scene, const SimulateOptions& options, records::Recorder& recorder,
+             const ProgressCallback& progress)
+      : scene_(scene), options_(options), recorder_(recorder), progress_(progress), twins_(make_twins(scene)) {
+    if (scene::type_of(scene.analysis.kind).integrates)
+      times_ = times_to_compare(scene, options.from ? start_time(*options.from) : 0.0, twins_);
+    runs_.resize(twins_.members.size());
+  }
+
+  records::Summary run() {
+    std::vector<std::function<void()>> tasks = {[this] { simulate_run(); }};
+    std::vector<std::size_t> order(twins_.members.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [this](std::size_t a, std::size_t b) { return twins_.members[a].cost > twins_.members[b].cost; });
+    for (const std::size_t k : order) tasks.emplace_back([this, k] { simulate_twin(k); });
+    schedule::run_side_by_side(options_.threads, tasks);
+    conclude();
+    recorder_.end(summary_);
+    return std::move(summary_);
+  }
+
+ private:
+  /// Its part of the threads, by its part of the work.
+  int threads_for(double cost) const {
+    double all = 1.0;
+    for (const Twin& t : twins_.members) all += t.cost;
+    return std::max(1, static_cast<int>(std::lround(options_.threads * cost / all)));
+  }
+
+  /// Samples a member at the times at which members are compared, besides the stops that the caller has.
+  void sample_into(MemberSeries& series, SimulateOptions& options) const {
+    if (times_.empty()) return;
+    const std::vector<double> others = options.stops;
+    const auto pass_on = options.sample;
+    options.stops.insert(options.stops.end(), times_.begin(), times_.end());
+    std::sort(options.stops.begin(), options.stops.end());
+    options.stops.erase(std::unique(options.stops.begin(), options.stops.end()), options.stops.end());
+    options.sample = [this, &series, others, pass_on](double time, const std::vector<double>& values) {
+      if (std::binary_search(times_.begin(), times_.end(), time)) {
+        series.times.push_back(time);
+        series.values.push_back(values);
+      }
+      if (pass_on && std::binary_search(others.begin(), others.end(), time)) pass_on(time, values);
+    };
+  }
+
+  void simulate_run() {
+    try {
+      SimulateOptions options = options_;
+      options.threads = threads_for(1.0);
+      options.measured = scene_.analysis.errors;
+      sample_into(series_, options);
+      Simulation simulation(scene_, std::move(options), &relay_, [this](const records::Progress& p) {
+        last_ = p;
+        return !progress_ || progress_(p);
+      });
+      (void)simulation.run();
+      summary_ = simulation.finish();
+      is_stopped_ = summary_.status != RunStatus::ok;
+    } catch (...) {
+      is_stopped_ = true;
+      throw;
+    }
+    has_ended_ = true;
+  }
+
+  /// Whether a twin goes on. After the end of the run twins ask for it in its place.
+  bool may_go_on() {
+    if (is_stopped_) return false;
+    if (!has_ended_ || !progress_) return true;
+    const std::lock_guard lock(asking_);
+    if (!progress_(last_)) is_stopped_ = true;
+    return !is_stopped_;
+  }
+
+  void simulate_twin(std::size_t k) {
+    const Twin& twin = twins_.members[k];
+    TwinRun& run = runs_[k];
+    run.is_of_mesh = twin.is_of_mesh;
+    run.factor = twin.factor;
+    if (is_stopped_) return;
+    const auto begun = std::chrono::steady_clock::now();
+    SimulateOptions options;
+    options.threads = threads_for(twin.cost);
+    options.from = options_.from;
+    options.before_step = [this](step::System&, const step::State&, const BeforeStep&) { return may_go_on(); };
+    sample_into(run.series, options);
+    MemberSeries rows;
+    RowKeeper keeper(rows);
+    try {
+      run.summary = simulate(twin.scene, options, keeper);
+    } catch (const std::exception& e) {
+      run.summary.status = RunStatus::failed;
+      run.summary.cause = e.what();
+    }
+    if (times_.empty()) run.series = std::move(rows);
+    run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  }
+
+  void conclude() {
+    if (summary_.status != RunStatus::ok) {
+      summary_.notes.emplace_back("no errors were measured: the run did not reach its end");
+      return;
+    }
+    if (is_stopped_) {
+      summary_.notes.emplace_back("no errors were measured: twins of the run were stopped");
+      return;
+    }
+    if (times_.empty())
+      for (const records::HistoryRow& row : relay_.rows) {
+        series_.times.push_back(row.time);
+        series_.values.push_back(row.values);
+      }
+    if (relay_.goes_on)
+      twins_.remarks.emplace_back("the run went on from a checkpoint: errors are those of the time since then");
+    auto errors = std::make_shared<records::MeasuredErrors>(measure_errors(
+        {scene_, summary_, std::move(series_), std::move(relay_.rows), std::move(runs_), twins_.remarks}));
+    judge_errors(*errors, errors_of(scene_), summary_);
+    summary_.errors = std::move(errors);
+  }
+
+  const scene::Scene& scene_;
+  const SimulateOptions& options_;
+  records::Recorder& recorder_;
+  const ProgressCallback& progress_;
+  Relay relay_{recorder_};
+  Twins twins_;
+  std::vector<double> times_;  ///< in dynamics; else rows are compared
+  MemberSeries series_;
+  std::vector<TwinRun> runs_;
+  records::Summary summary_;
+  records::Progress last_;
+  std::atomic<bool> is_stopped_{false}, has_ended_{false};
+  std::mutex asking_;
+};
+
+}  // namespace
+
+records::Summary simulate_with_twins(const scene::Scene& scene, const SimulateOptions& options,
+                                     records::Recorder& recorder, const ProgressCallback& progress) {
+  return SideBySide(scene, options, recorder, progress).run();
+}
+
+}  // namespace bough::run

@@ -1,0 +1,12 @@
+#pragma once
+#include "bough/run/simulate.hpp"
+
+namespace bough::run {
+
+/// Runs a scene beside its twins (make_twins), on the threads of the options, and measures the errors of its results.
+/// The run itself, its rows and its pictures are those of a run without twins, bit by bit; the recorder gets them as they
+/// come, and the summary when all twins have ended. Precondition: as of `simulate`, and the analysis wants errors.
+records::Summary simulate_with_twins(const scene::Scene& scene, const SimulateOptions& options,
+                                     records::Recorder& recorder, const ProgressCallback& progress);
+
+}  // namespace bough::run
