@@ -116,7 +116,10 @@ std::optional<step::Trouble> CarriedError::carry(const step::State& state) {
   budget_ -= 0.5;
   if (auto t = transport_.carry(state)) return t;
   budget_ -= 0.1 * transport_.num_solutions();  // one is about a tenth of such a step
-  look_for_leap(state);
+  if (has_leapt(state)) {
+    too_much_ = std::numeric_limits<double>::infinity();
+    has_leapt_late_ = has_leapt_late_ || state.time > middle_;
+  }
   largest_ = std::max(largest_, transport_.size());
   if (state.time <= middle_) largest_early_ = largest_;
   return std::nullopt;
@@ -125,8 +128,9 @@ std::optional<step::Trouble> CarriedError::carry(const step::State& state) {
 /// An impact within a long step of the error changes velocities by other than the mean of the accelerations at its ends.
 /// The tangent there is that of before or after it, or of its middle all the time, and what the error then grows by is
 /// not the motion's.
-void CarriedError::look_for_leap(const step::State& state) {
-  constexpr double leap = 0.25;  // of the change; a vibration of 1.7 rad a step is off by that
+bool CarriedError::has_leapt(const step::State& state) {
+  constexpr double leap = 0.25;    // of the change; a vibration of 1.7 rad a step is off by that
+  constexpr double little = 1e-3;  // of the largest change: what is left of a motion that has died out is round-off
   const std::vector<elements::NodeMotion>& nodes = nodes_in_space(system_.plan(), state);
   const double h = state.time - last_time_, length = system_.plan().length_scale;
   const bool looks = stride_ > 1 && last_velocity_.size() == nodes.size() && h > 0.0;
@@ -141,21 +145,23 @@ void CarriedError::look_for_leap(const step::State& state) {
     const motion::Vec6<double> rate =
         lanes::join(motion::Vec3<double>(R * a), motion::Vec3<double>(length * (R * lanes::angular_part(nodes[n].a))));
     if (looks) {
-      const motion::Vec6<double> change = v - last_velocity_[n], mean = (0.5 * h) * (rate + last_acceleration_[n]),
-                                 gap = change - mean;
+      const motion::Vec6<double> change = v - last_velocity_[n], first = (0.5 * h) * last_acceleration_[n],
+                                 second = (0.5 * h) * rate, gap = change - first - second;
       off += lanes::dot(gap, gap);
-      all += lanes::dot(change, change) + lanes::dot(mean, mean);
+      all += lanes::dot(change, change) + lanes::dot(first, first) + lanes::dot(second, second);
     }
     last_velocity_[n] = v;
     last_acceleration_[n] = rate;
   }
   last_time_ = state.time;
-  has_leapt_ = has_leapt_ || off > leap * leap * all;
+  most_change_ = std::max(most_change_, all);
+  return off > leap * leap * all && all > little * little * most_change_;
 }
 
 double CarriedError::grows_in() const {
   constexpr double sensitive = 30.0;  // a power of time makes 4 to 8 of the two halves of a run
-  if (has_leapt_ || unresolved_ > unresolved_share * all_) return 0.0;  // errors grow by such steps, not by the motion
+  // Errors grow by steps that do not see the motion, which tells nothing of it.
+  if (has_leapt_late_ || unresolved_ > unresolved_share * all_) return 0.0;
   if (!(largest_early_ > 0.0) || !(largest_ > sensitive * largest_early_)) return 0.0;
   return 0.5 * duration_ / std::log(largest_ / largest_early_);
 }

@@ -42,7 +42,7 @@ class CarriedError {
   void checkpoint(records::Archive& archive) {
     archive(local_, transport_, budget_, stride_, since_, has_first_, duration_, middle_, largest_early_, largest_,
             reaction_, too_much_, all_, unresolved_, added_, detuned_, last_velocity_, last_acceleration_, last_time_,
-            has_leapt_);
+            most_change_, has_leapt_late_);
   }
 
   const step::ErrorTransport& transport() const { return transport_; }
@@ -57,14 +57,14 @@ class CarriedError {
   bool is_resolved() const {
     constexpr double out_of_step = 2.0;  // [rad]; an undamped vibration loses a sixth of its error by then
     const bool keeps_up = largest_ * detuned_ <= out_of_step * added_ || largest_ > added_;
-    return !has_leapt_ && unresolved_ <= unresolved_share * all_ && keeps_up;
+    return unresolved_ <= unresolved_share * all_ && keeps_up;
   }
 
  private:
   static constexpr double unresolved_share = 0.1;  ///< of the duration: more of it tells nothing
 
   bool is_at_peak(const step::State& state);
-  void look_for_leap(const step::State& state);
+  bool has_leapt(const step::State& state);
   std::optional<step::Trouble> carry(const step::State& state);
   void add(const step::State& state, const step::LocalError& local, double steps);
 
@@ -81,8 +81,8 @@ class CarriedError {
   double reaction_ = 0.0;                       ///< fading mean of the largest multiplier
   double too_much_ = 0.0;
   std::vector<motion::Vec6<double>> last_velocity_, last_acceleration_;  ///< of nodes, when the error was carried last
-  double last_time_ = 0.0;
-  bool has_leapt_ = false;               ///< a step of the error has passed over an impact
+  double last_time_ = 0.0, most_change_ = 0.0;  ///< the latter: of velocities in a step of the error, squared
+  bool has_leapt_late_ = false;          ///< a step of the error has passed over an impact in the later half of the run
   double all_ = 0.0, unresolved_ = 0.0;  ///< durations [s]
   double added_ = 0.0;                   ///< sum of the sizes of errors added
   double detuned_ = 0.0;  ///< by how much less than the run the error has turned in its steps, all together [rad]
