@@ -339,7 +339,28 @@ class ErrorReport {
       e.extrapolated = last[0];
       if (e.time.is_known()) e.time.at_end = last[1];
       if (e.mesh.is_known()) e.mesh.at_end = last[2];
+      if (columns.kind == Kind::number) continue;
+      take_from_rows(columns, 3 * (columns.first + i) + 1, e.time);
+      take_from_rows(columns, 3 * (columns.first + i) + 2, e.mesh);
     }
+  }
+
+  /// Of a rotation errors are angles, and those of its columns are in the rows.
+  void take_from_rows(const ComparedColumns& columns, std::size_t place, ErrorPart& part) const {
+    if (part.state == ErrorState::not_resolved && columns.kind == Kind::quaternion) {
+      part.largest *= 0.5;  // of half the angle
+      part.root_mean_square *= 0.5;
+    }
+    if (part.state != ErrorState::resolved && part.state != ErrorState::unexamined) return;
+    part.largest = part.root_mean_square = 0.0;
+    for (const records::HistoryRow& row : errors_.rows) {
+      const double error = std::abs(row.values[place]);
+      part.root_mean_square += error * error / static_cast<double>(errors_.rows.size());
+      if (error <= part.largest) continue;
+      part.largest = error;
+      part.when = row.time;
+    }
+    part.root_mean_square = std::sqrt(part.root_mean_square);
   }
 
   void add_figures() {

@@ -75,7 +75,7 @@ TEST_P(InTime, told_errors_are_true_and_extrapolated_values_have_their_order) {
 std::string name_of(const testing::TestParamInfo<Case>& info) { return info.param.scene; }
 INSTANTIATE_TEST_SUITE_P(Twins, InTime,
                          testing::Values(Case{"rod_chain", {"tip.x", "tip.z"}},
-                                         Case{"heavy_top", {"center.x", "center.z"}, 8.0},
+                                         Case{"heavy_top", {"center.x", "center.z"}, 2.0},
                                          Case{"four_bar_windows", {"B0.x", "B0.y"}},
                                          Case{"free_body", {"body.wx", "body.wz", "attitude.q1"}}),
                          name_of);
@@ -102,7 +102,8 @@ TEST_P(OfMesh, told_errors_are_true) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Twins, OfMesh,
-                         testing::Values(Case{"elastica", {"tip.x", "tip.y"}}, Case{"bend_45", {"tip.x", "tip.y"}},
+                         testing::Values(Case{"elastica", {"tip.x", "root.M3"}},
+                                         Case{"spin_up", {"tip.x", "torque.fx"}},
                                          Case{"right_angle_cantilever", {"tip.x", "energy"}}),
                          name_of);
 
