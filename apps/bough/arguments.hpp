@@ -22,7 +22,6 @@ struct RunArguments {
   double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
   bool quiet = false, replace = false, resume = false;
   bool check_expected = false, strict = false;
-  std::string errors;          ///< time, mesh or both, also among the overrides; empty: as the scene says
   std::filesystem::path from;  ///< folder of a run in a state of which this one starts; empty: the scene's own start
   std::optional<double> time;  ///< of that state [s], or load factor; none: the last one there is
 };
@@ -41,7 +40,6 @@ struct CaseArguments {
   std::vector<std::string> overrides;
   double memory_limit = 0.0;  ///< of all cases at a time [bytes]; 0: what is available
   bool quiet = false, check_expected = false, strict = false;
-  std::string errors;       ///< as of a run
   double stop_after = 0.0;  ///< of the whole batch [s]; 0: never
   int retries = 0;          ///< of a case that fails
   bool resume = false, replace = false;
@@ -89,7 +87,6 @@ struct TuneArguments {
 };
 struct PlanArguments {
   std::filesystem::path scene, json;  ///< json empty: not written
-  std::string errors;                 ///< as of a run
   std::vector<std::string> overrides;
   double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
 };

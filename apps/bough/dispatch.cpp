@@ -8,7 +8,6 @@
 #include "arguments.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "bough/version.hpp"
-#include "memory_limit.hpp"
 #include "shared_options.hpp"
 
 namespace bough::app {
@@ -43,7 +42,7 @@ void add_run(CLI::App& app, RunArguments& a, int& code) {
   add_overrides(verb, a.overrides);
   add_memory_limit(verb, a.memory_limit);
   add_without(verb, a.overrides);
-  add_errors(verb, a.errors, a.overrides);
+  add_errors(verb, a.overrides);
   verb.add_flag("--quiet", a.quiet, "Print problems and doubts only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
   verb.add_flag("--strict", a.strict, "Exit with 1 also where the run is not to be trusted without a closer look");
@@ -83,7 +82,7 @@ void add_case_options(CLI::App& verb, CaseArguments& a) {
       ->type_name("S")
       ->check(between(0.001, 1e9));
   add_overrides(verb, a.overrides);
-  add_errors(verb, a.errors, a.overrides);
+  add_errors(verb, a.overrides);
   add_memory_limit(verb, a.memory_limit, "all cases at a time");
   verb.add_flag("--quiet", a.quiet, "Print failed cases and the number of doubted ones only");
   verb.add_flag("--check-expected", a.check_expected, "Exit with 1 also where an expected figure does not hold");
@@ -278,7 +277,7 @@ void add_plan(CLI::App& app, PlanArguments& a, int& code) {
   add_overrides(verb, a.overrides);
   add_memory_limit(verb, a.memory_limit);
   add_without(verb, a.overrides);
-  add_errors(verb, a.errors, a.overrides);
+  add_errors(verb, a.overrides);
   verb.callback([&] { code = plan(a); });
 }
 

@@ -39,14 +39,19 @@ void add_without(CLI::App& verb, std::vector<std::string>& overrides) {
       ->check(CLI::IsMember(scene::names_in_without()));
 }
 
-void add_errors(CLI::App& verb, std::string& which, std::vector<std::string>& overrides) {
-  verb.add_flag("--errors{both}", which,
-                "Measure errors of all results by runs beside this one, with longer steps and other numbers of "
-                "elements; --errors=time or --errors=mesh: one of the two")
-      ->check(CLI::IsMember({"time", "mesh", "both"}))
-      ->each([&overrides](const std::string& asked) {
-        for (const std::string kind : {"time", "mesh"})
-          overrides.push_back("/analysis/errors/" + kind + (asked == kind || asked == "both" ? "=true" : "=false"));
+void add_errors(CLI::App& verb, std::vector<std::string>& overrides) {
+  verb.add_option_function<std::string>(
+          "--errors",
+          [&overrides](const std::string& asked) {
+            for (const std::string kind : {"time", "mesh"})
+              overrides.push_back("/analysis/errors/" + kind + (asked == kind || asked.empty() ? "=true" : "=false"));
+          },
+          "Measure errors of all results by runs beside this one: with longer steps, with other numbers of elements, "
+          "or both (default)")
+      ->expected(0, 1)
+      ->type_name("[time|mesh]")
+      ->check([](const std::string& text) {
+        return text == "time" || text == "mesh" ? std::string() : "'" + text + "' is neither time nor mesh";
       });
 }
 

@@ -12,9 +12,8 @@ CLI::Validator between(double low, double high);
 void add_overrides(CLI::App& verb, std::vector<std::string>& overrides);
 /// Decisions of the plan that are not to be taken: an override of /without, made when all are known.
 void add_without(CLI::App& verb, std::vector<std::string>& overrides);
-/// Errors of the results, measured by twins of a run: overrides of /analysis/errors. which: "time", "mesh", "both" or
-/// empty.
-void add_errors(CLI::App& verb, std::string& which, std::vector<std::string>& overrides);
+/// Errors of the results, measured by twins of a run: overrides of /analysis/errors.
+void add_errors(CLI::App& verb, std::vector<std::string>& overrides);
 /// Scenes of which a run would take more are refused before anything is allocated for them.
 void add_memory_limit(CLI::App& verb, double& bytes, const std::string& what = "a run");
 void add_threads(CLI::App& verb, int& threads, const std::string& what);

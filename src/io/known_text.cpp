@@ -33,7 +33,7 @@ std::string known_text(double value, double error) {
     digit = 1.0;
     ++place;
   }
-  const std::string told = rounded_text(digit * std::pow(10.0, place), 1);
+  const std::string told = rounded_text(digit * std::pow(10.0, place), 6);
   const double rounded = std::round(value / std::pow(10.0, place)) * std::pow(10.0, place);
   if (rounded == 0.0) return "0 +- " + told;
   const int exponent = exponent_of(rounded);

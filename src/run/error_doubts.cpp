@@ -22,18 +22,19 @@ struct Words {
 };
 constexpr Words in_time{"in time", "take smaller steps"}, of_mesh{"of the mesh", "take more elements"};
 
-/// Whether twins have measured all that the estimate doubts.
+/// Whether twins tell of all that the estimate doubts: they know its error, or doubt it themselves.
 bool is_replaced(const records::MeasuredErrors& errors, const records::Summary& summary, const TrustLimits& limits) {
-  const auto is_known = [&errors](const std::string& column) {
+  const auto is_told = [&](const std::string& column) {
     const auto at =
         std::find_if(errors.columns.begin(), errors.columns.end(), [&](const ErrorOf& e) { return e.name == column; });
-    return at != errors.columns.end() && at->time.is_known();
+    return at != errors.columns.end() && (at->time.is_known() || (at->time.state == ErrorState::not_resolved &&
+                                                                  at->time.largest > limits.sensor_error * at->range));
   };
   if (summary.sensor_errors.empty())
     return !errors.columns.empty() && std::all_of(errors.columns.begin(), errors.columns.end(),
                                                   [](const ErrorOf& e) { return e.time.is_known(); });
   return std::all_of(summary.sensor_errors.begin(), summary.sensor_errors.end(), [&](const records::SensorError& e) {
-    return e.relative() <= limits.sensor_error || is_known(e.column);
+    return e.relative() <= limits.sensor_error || is_told(e.column);
   });
 }
 

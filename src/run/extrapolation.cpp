@@ -59,17 +59,16 @@ struct Fit {
 Fit fit(const MemberDifferences& d, double q, double round_off) {
   const std::size_t times = d.fine.size() / d.width;
   Fit fit;
-  double largest = round_off, square = 0.0;
+  const double largest = std::max(round_off, Magnitudes(d.fine, d.width).largest());
+  double square = 0.0;
   bool is_good = true;
   for (std::size_t k = 0; k < times; ++k) {
-    double along = 0.0, length = 0.0, off = 0.0;
+    double along = 0.0, off = 0.0;
     for (std::size_t i = k * d.width; i < (k + 1) * d.width; ++i) {
       const double delta = d.coarse[i] - q * d.fine[i];
       along += delta * d.fine[i];
-      length += d.fine[i] * d.fine[i];
       off += delta * delta;
     }
-    largest = std::max(largest, std::sqrt(length));
     square += off;
     const double most = (along > 0.0 ? most_above : most_below) * q * largest;
     is_good = is_good && std::sqrt(off) <= most;
@@ -109,7 +108,9 @@ Extrapolation extrapolate(const MemberDifferences& d, std::span<const double> ti
     part.root_mean_square = m.root_mean_square();
     part.when = times[m.place_of_largest()];
   };
-  if (fine.largest() <= theory.round_off && coarse.largest() <= theory.round_off) {
+  // How far the run is from the finest member, which agrees with the limit where it agrees with the next one.
+  const double apart = run == 2 ? std::max(fine.largest(), coarse.largest()) : fine.largest();
+  if (apart <= theory.round_off) {
     part.state = ErrorState::round_off;
     part.largest = part.root_mean_square = theory.round_off;
     return result;
@@ -136,7 +137,7 @@ Extrapolation extrapolate(const MemberDifferences& d, std::span<const double> ti
     part.at_end = d.width == 1 ? result.error.back() : Magnitudes(result.error, d.width).at(fine.size() - 1);
     return result;
   }
-  if (fine.largest() <= theory.floor && coarse.largest() <= theory.floor) {
+  if (apart <= theory.floor) {
     part.state = ErrorState::round_off;
     part.largest = part.root_mean_square = theory.floor;
     return result;

@@ -30,7 +30,7 @@ struct ErrorTheory {
 
 /// Richardson's extrapolation of one quantity. With d = fine, D = coarse and q = 2^p, errors of order p have D = q d at
 /// all times, and the limit is the finest member plus d / (q - 1). The error is resolved where D / d is near q for one of the
-/// orders; a single time at which it is not, measured against the largest d up to then, makes it unresolved.
+/// orders; a single time at which it is not, measured against the largest d of all times, makes it unresolved.
 /// run: which member's error is told, 0 the finest, 1 the middle one, 2 the coarsest.
 /// times: one for each entry of the differences; of a figure a single one.
 Extrapolation extrapolate(const MemberDifferences& d, std::span<const double> times, int run,

@@ -84,11 +84,23 @@ class Scales {
     };
     for (const auto& values : run.series.values) see(values);
     for (const auto& row : run.rows) see(row.values);
+    compare_forces(run.summary.checks.energy_scale);
   }
   std::string unit(std::size_t c) const { return c < header_.about.size() ? header_.about[c].unit : std::string(); }
   double of(std::size_t c) const { return largest_.at(unit(c)); }
 
  private:
+  /// A force that is zero but for round-off is compared with moments over the size of the structure, as far as sensors
+  /// tell it, and with a part of the energy over it (as reactions are, judgement.cpp); a moment with the same.
+  void compare_forces(double energy) {
+    constexpr double part_of_energy = 1e-3;
+    const double size = largest_["m"];
+    double& moment = largest_["N m"];
+    double& force = largest_["N"];
+    moment = std::max({moment, part_of_energy * std::max(energy, largest_["J"]), force * size});
+    if (size > 0.0) force = std::max(force, moment / size);
+  }
+
   const records::HistoryHeader& header_;
   std::map<std::string, double> largest_;
 };
@@ -108,6 +120,19 @@ Extrapolation compare_equilibria(const MemberDifferences& d, std::span<const dou
   else
     e.part.cause = "load steps half as long lead to other equilibria from " + io::rounded_text(e.part.when, 4) + " on";
   return e;
+}
+
+/// Steps of the run a period of the vibration in which members differ, by how often their difference turns back; 0: it
+/// turns seldom.
+double steps_a_period(const MemberDifferences& d, std::span<const double> times, double step) {
+  constexpr double seldom = 32.0;  // a twin of four times the step has eight steps a period left
+  if (times.size() < 4) return 0.0;
+  double turns = 0.0;
+  const auto at = [&d](std::size_t k) { return d.fine[k * d.width]; };
+  for (std::size_t k = 2; k < times.size(); ++k)
+    turns += (at(k) - at(k - 1)) * (at(k - 1) - at(k - 2)) < 0.0 ? 1.0 : 0.0;
+  const double steps = turns > 0.0 ? 2.0 * (times.back() - times.front()) / (turns * step) : 0.0;
+  return steps < seldom ? steps : 0.0;
 }
 
 /// All that is told of one kind of error.
@@ -157,6 +182,10 @@ class Part {
     Extrapolation e = extrapolate(d, times, twinned_.run, theory);
     if (e.part.state == ErrorState::not_resolved && is_of_mesh_ && e.part.cause.empty() && run_.scene.beams.size() == 1)
       e.part.cause = "beam '" + run_.scene.beams.front().name + "' has too few elements";
+    if (e.part.state == ErrorState::not_resolved && !is_of_mesh_)
+      if (const double steps = steps_a_period(d, times, run_.scene.analysis.step_size); steps > 0.0)
+        e.part.cause = "members differ by a vibration of about " + io::rounded_text(steps, 2) +
+                       " steps a period or less, which the longer steps do not resolve";
     return e;
   }
 
@@ -273,7 +302,8 @@ class ErrorReport {
     if (const auto told = growing.look(time_.family()->times())) tell(*told);
   }
 
-  /// Largest minus least value over the columns of a sensor with the same unit.
+  /// Largest minus least value over the columns of a sensor with the same unit; of energies no less than the largest
+  /// energy, since the range of one that is conserved is its error.
   double sensor_range(std::size_t column) {
     const auto& columns = run_.summary.header.columns;
     const std::string sensor = columns[column].substr(0, columns[column].rfind('.'));
@@ -282,7 +312,7 @@ class ErrorReport {
       for (std::size_t c = 0; c < columns.size(); ++c)
         if (columns[c].substr(0, columns[c].rfind('.')) == sensor && scales_.unit(c) == scales_.unit(column))
           at->second = std::max(at->second, range_of(run_, {Kind::number, c, 1}));
-    return at->second;
+    return scales_.unit(column) == "J" ? std::max(at->second, run_.summary.checks.energy_scale) : at->second;
   }
 
   void add_column(std::size_t c, double range, const ErrorPart& time, const ErrorPart& mesh) {
@@ -309,7 +339,28 @@ class ErrorReport {
       e.extrapolated = last[0];
       if (e.time.is_known()) e.time.at_end = last[1];
       if (e.mesh.is_known()) e.mesh.at_end = last[2];
+      if (columns.kind == Kind::number) continue;
+      take_from_rows(columns, 3 * (columns.first + i) + 1, e.time);
+      take_from_rows(columns, 3 * (columns.first + i) + 2, e.mesh);
     }
+  }
+
+  /// Of a rotation errors are angles, and those of its columns are in the rows.
+  void take_from_rows(const ComparedColumns& columns, std::size_t place, ErrorPart& part) const {
+    if (part.state == ErrorState::not_resolved && columns.kind == Kind::quaternion) {
+      part.largest *= 0.5;  // of half the angle
+      part.root_mean_square *= 0.5;
+    }
+    if (part.state != ErrorState::resolved && part.state != ErrorState::unexamined) return;
+    part.largest = part.root_mean_square = 0.0;
+    for (const records::HistoryRow& row : errors_.rows) {
+      const double error = std::abs(row.values[place]);
+      part.root_mean_square += error * error / static_cast<double>(errors_.rows.size());
+      if (error <= part.largest) continue;
+      part.largest = error;
+      part.when = row.time;
+    }
+    part.root_mean_square = std::sqrt(part.root_mean_square);
   }
 
   void add_figures() {

@@ -3,6 +3,7 @@
 #include <regex>
 
 #include "../../src/report/between_frames.hpp"
+#include "../../src/report/error_bands.hpp"
 #include "../../src/report/packed.hpp"
 #include "../../src/report/pixel_text.hpp"
 #include "../../src/report/round_off.hpp"
@@ -251,6 +252,27 @@ TEST(Plot, of_many_rows_is_small_and_keeps_its_peak) {
     heights.push_back(std::stod((*it)[1]));
   std::sort(heights.begin(), heights.end());
   EXPECT_LT(heights[0], heights[10] - 50.0) << "one point stands far above all others";
+}
+
+TEST(Plot, measured_errors_are_lines_above_and_below_the_curve) {
+  io::History history, errors;
+  history.header.columns = {"a"};
+  errors.header.columns = {"a.extrapolated", "a.error_in_time", "a.error_of_mesh"};
+  for (int k = 0; k < 10; ++k) {
+    history.rows.push_back({1.0 * k, 1.0, 1, {1.0 * k}});
+    errors.rows.push_back({1.0 * k, 1.0, 1, {1.0 * k, -0.5, k < 5 ? std::nan("") : 0.25}});
+  }
+  const std::vector<std::vector<double>> bands = error_bands(history, errors);
+  ASSERT_EQ(bands.size(), 1u);
+  EXPECT_EQ(bands[0].front(), 0.5);
+  EXPECT_EQ(bands[0].back(), 0.75);
+  const std::string with = make_plot(history, "a", {0}, "time", 0.0, bands).svg;
+  EXPECT_EQ(make_plot(history, "a", {0}, "time").svg.find("class=\"bound"), std::string::npos);
+  const std::size_t first = with.find("class=\"bound");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_NE(with.find("class=\"bound", first + 1), std::string::npos);
+  errors.rows.pop_back();
+  EXPECT_TRUE(error_bands(history, errors).empty()) << "rows of another run";
 }
 
 TEST(Plot, values_that_are_not_finite_leave_a_gap) {

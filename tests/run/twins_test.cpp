@@ -7,7 +7,9 @@
 #include "bough/records/errors.hpp"
 #include "bough/run/memory_run.hpp"
 #include "bough/run/simulate.hpp"
+#include "error_doubts.hpp"
 #include "support/scenes.hpp"
+#include "trust.hpp"
 #include "twin_scenes.hpp"
 
 namespace bough::run {
@@ -153,6 +155,43 @@ TEST(Twins, what_steps_do_not_resolve_is_not_resolved_and_doubted) {
   EXPECT_EQ(error_of(run, "at.x").time.state, ErrorState::not_resolved);
   EXPECT_TRUE(std::any_of(run.summary.doubts.begin(), run.summary.doubts.end(),
                           [](const records::Doubt& d) { return d.about == "error"; }));
+}
+
+/// A summary with a doubt of the estimate about one column, and what twins tell of that column.
+records::Summary judged(ErrorState state, double largest) {
+  records::Summary summary;
+  summary.doubts = {{estimate_beside_twins, "x is off"}, {"error", "a pulse is missed"}};
+  records::SensorError estimated;
+  estimated.column = "x";
+  estimated.of_steps = 0.5;
+  estimated.range = 1.0;
+  summary.sensor_errors = {estimated};
+  records::MeasuredErrors errors;
+  records::ErrorOf& x = errors.columns.emplace_back();
+  x.name = "x";
+  x.range = 1.0;
+  x.time.state = state;
+  x.time.largest = largest;
+  judge_errors(errors, {true, false}, summary);
+  return summary;
+}
+
+TEST(Twins, doubts_about_errors_in_time_rest_on_them) {
+  const auto count = [](const records::Summary& s, const std::string& about) {
+    return std::count_if(s.doubts.begin(), s.doubts.end(), [&](const auto& d) { return d.about == about; });
+  };
+  const records::Summary good = judged(ErrorState::resolved, 0.01), wrong = judged(ErrorState::resolved, 0.1),
+                         lost = judged(ErrorState::not_resolved, 0.1), open = judged(ErrorState::not_resolved, 0.01),
+                         none = judged(ErrorState::not_measured, 0.0);
+  EXPECT_EQ(count(good, estimate_beside_twins), 0);
+  EXPECT_EQ(count(good, "error"), 1) << "doubts of another origin stay";
+  EXPECT_EQ(count(wrong, "error"), 2);
+  EXPECT_EQ(count(wrong, estimate_beside_twins), 0);
+  EXPECT_EQ(count(lost, "error"), 2);
+  EXPECT_EQ(count(open, estimate_beside_twins), 1) << "what twins do not know is left to the estimate";
+  EXPECT_EQ(count(open, "error"), 1);
+  EXPECT_EQ(count(none, estimate_beside_twins), 1);
+  EXPECT_NE(none.not_judged.find("the error in time of 'x' was not measured"), std::string::npos) << none.not_judged;
 }
 
 TEST(Twins, a_run_that_fails_or_is_stopped_has_no_errors_and_ends_its_twins) {
