@@ -140,18 +140,19 @@ constexpr const char* forced = R"({
 
 /// A ball that falls on a stop by a formula, on a rail, or on the contact of a plane, and bounces five times and more.
 std::string bouncing(bool has_contact, const std::string& end_time) {
-  return R"({"gravity": [0, 0, -9.81], "bodies": [{"name": "ball", "mass": 1, "inertia": [1, 1, 1], "position": [0, 0, 1]}],
-    "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "ball", "position": [0, 0, 0],
-                "axis": [0, 0, 1])" +
-         std::string(has_contact ? R"(}],
-    "contacts": [{"name": "floor", "first": "ground", "second": "ball", "normal": [0, 0, 1], "stiffness": 1e5,
-                  "dissipation": 0.1}],)"
-                                 : R"(, "forces": [{"effort": {"signal": "floor"}}]}],
+  const std::string stop = has_contact ? R"-(}], "contacts": [{"name": "floor", "first": "ground", "second": "ball",
+      "normal": [0, 0, 1], "stiffness": 1e5, "dissipation": 0.1}],)-"
+                                       : R"-(, "forces": [{"effort": {"signal": "floor"}}]}],
     "signals": [{"name": "z", "kind": "position", "at": "ball", "axis": "z"},
                 {"name": "v", "kind": "velocity", "at": "ball", "axis": "z"},
-                {"name": "floor", "kind": "formula", "expression": "max(0, 1e4*max(0, -z)*(1 - 0.3*v))"}],)") +
-         R"("sensors": [{"name": "z", "kind": "position", "at": "ball"}],
-    "analysis": {"kind": "dynamic", "end_time": )" + end_time + R"(, "step_size": 5e-4}})";
+                {"name": "floor", "kind": "formula", "expression": "max(0, 1e4*max(0, -z)*(1 - 0.3*v))"}],)-";
+  return R"-({"gravity": [0, 0, -9.81],
+    "bodies": [{"name": "ball", "mass": 1, "inertia": [1, 1, 1], "position": [0, 0, 1]}],
+    "joints": [{"name": "rail", "kind": "prismatic", "first": "ground", "second": "ball", "position": [0, 0, 0],
+                "axis": [0, 0, 1])-" +
+         stop + R"-("sensors": [{"name": "z", "kind": "position", "at": "ball"}],
+    "analysis": {"kind": "dynamic", "end_time": )-" +
+         end_time + R"-(, "step_size": 5e-4}})-";
 }
 
 // The error grows with the number of bounces, not by e again and again: a run in a tenth of the steps is off by 5e-4 of
