@@ -49,13 +49,13 @@ constexpr std::array<const scene::CouplingKind*, sizeof...(E)> kinds_of(std::tup
 constexpr auto kinds = kinds_of(static_cast<CatalogueOn<motion::Se3>*>(nullptr));
 
 template <class E>
-constexpr auto functions_of_part =
+constexpr auto drivers_of_part =
     std::tuple{&evaluate<E>,         &evaluate_rate<E>,     &may_share_lanes<E>,
                &has_same_numbers<E>, &make_lane_element<E>, &evaluate_lanes<LaneElement<E>>};
 
 }  // namespace
 
-BOUGH_EMIT_FOR_CATALOGUE(functions_of_part)
+BOUGH_EMIT_FOR_CATALOGUE(drivers_of_part)
 
 std::span<const scene::CouplingKind* const> coupling_kinds() { return kinds; }
 

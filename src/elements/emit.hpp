@@ -24,18 +24,19 @@ using AllInSpace = decltype(std::tuple_cat(std::tuple<Beam<2>, Beam<3>, Beam<4>,
 
 }  // namespace bough::elements::detail
 
-/// functions: a variable template over elements, with the addresses of functions.
-#define BOUGH_EMIT(functions_of, name, ...)                                                                    \
-  namespace {                                                                                                  \
-  template <class E>                                                                                           \
-  struct name {                                                                                                \
-    static constexpr auto functions = functions_of<E>;                                                         \
-  };                                                                                                           \
-  [[gnu::used]] constexpr auto name##_kept = detail::emit_for<name>(static_cast<const __VA_ARGS__*>(nullptr)); \
+/// functions_of: a variable template over elements, with the addresses of functions, of a name of its own.
+#define BOUGH_EMIT(functions_of, where, ...)                                           \
+  namespace {                                                                          \
+  template <class E>                                                                   \
+  struct functions_of##where {                                                         \
+    static constexpr auto functions = functions_of<E>;                                 \
+  };                                                                                   \
+  [[gnu::used]] constexpr auto functions_of##where##_kept =                            \
+      detail::emit_for<functions_of##where>(static_cast<const __VA_ARGS__*>(nullptr)); \
   }
-#define BOUGH_EMIT_FOR_CATALOGUE(functions_of)                                 \
-  BOUGH_EMIT(functions_of, EmitInSpace, CatalogueOn<motion::Se3>)              \
-  BOUGH_EMIT(functions_of, EmitInPlane, CatalogueOn<motion::Se2>)              \
-  BOUGH_EMIT(functions_of, EmitOfPlaces, CatalogueOn<motion::Translations<3>>) \
-  BOUGH_EMIT(functions_of, EmitOnLine, CatalogueOn<motion::Translations<1>>)
-#define BOUGH_EMIT_FOR_ALL(functions_of) BOUGH_EMIT(functions_of, EmitAllInSpace, detail::AllInSpace)
+#define BOUGH_EMIT_FOR_CATALOGUE(functions_of)                               \
+  BOUGH_EMIT(functions_of, _in_space, CatalogueOn<motion::Se3>)              \
+  BOUGH_EMIT(functions_of, _in_plane, CatalogueOn<motion::Se2>)              \
+  BOUGH_EMIT(functions_of, _of_places, CatalogueOn<motion::Translations<3>>) \
+  BOUGH_EMIT(functions_of, _on_line, CatalogueOn<motion::Translations<1>>)
+#define BOUGH_EMIT_FOR_ALL(functions_of) BOUGH_EMIT(functions_of, _all, detail::AllInSpace)

@@ -151,8 +151,8 @@ void eval_energies_lanes(const LaneElement<E>& e, const FieldOn<typename E::Grou
   BOUGH_INSTANTIATE_ENERGIES(BeamOn<G, 4>)
 
 template <class E>
-constexpr auto functions_of_part = std::tuple{&eval_energies<E>, &eval_energies_lanes<E>};
-BOUGH_EMIT_FOR_CATALOGUE(functions_of_part)
+constexpr auto energies_of_part = std::tuple{&eval_energies<E>, &eval_energies_lanes<E>};
+BOUGH_EMIT_FOR_CATALOGUE(energies_of_part)
 BOUGH_INSTANTIATE_BEAMS(motion::Se3)
 BOUGH_INSTANTIATE_BEAMS(motion::Se2)
 BOUGH_INSTANTIATE_POINTS(motion::Translations<3>)

@@ -142,7 +142,7 @@ Vec6<double> eval_reaction(const Joint& joint, const Field& field, const double*
 }
 
 template <class E>
-constexpr auto functions_of_part = &measure<E>;
-BOUGH_EMIT_FOR_ALL(functions_of_part)
+constexpr auto measure_of_part = &measure<E>;
+BOUGH_EMIT_FOR_ALL(measure_of_part)
 
 }  // namespace bough::elements

@@ -225,7 +225,7 @@ BOUGH_INSTANTIATE_TURNING_MOMENTA(motion::Se3)
 BOUGH_INSTANTIATE_TURNING_MOMENTA(motion::Se2)
 
 template <class E>
-constexpr auto functions_of_part = std::tuple{&evaluate_momentum<E>, &add_elastic_mass<E>, &add_gyroscopic<E>};
-BOUGH_EMIT_FOR_CATALOGUE(functions_of_part)
+constexpr auto momenta_of_part = std::tuple{&evaluate_momentum<E>, &add_elastic_mass<E>, &add_gyroscopic<E>};
+BOUGH_EMIT_FOR_CATALOGUE(momenta_of_part)
 
 }  // namespace bough::elements
