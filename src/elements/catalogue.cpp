@@ -1,8 +1,7 @@
 /// All that is compiled for the couplings of the catalogue, and their kinds as plain data.
 #include "bough/elements/catalogue.hpp"
 
-#include <stdexcept>
-#include <string>
+#include <array>
 
 #include "bough/elements/coupling_kinds.hpp"
 #include "bough/scene/scene.hpp"
@@ -58,11 +57,5 @@ constexpr auto drivers_of_part =
 BOUGH_EMIT_FOR_CATALOGUE(drivers_of_part)
 
 std::span<const scene::CouplingKind* const> coupling_kinds() { return kinds; }
-
-const scene::CouplingKind& coupling_kind(std::string_view list) {
-  for (const scene::CouplingKind* kind : kinds)
-    if (kind->list == list) return *kind;
-  throw std::invalid_argument("there is no kind of couplings \"" + std::string(list) + "\"");
-}
 
 }  // namespace bough::elements

@@ -213,7 +213,6 @@ void Converter::coupling(const scene::CouplingKind& kind, const Value& v, const 
       continue;
     }
     const Vec3 direction = vector(given);
-    if (!(norm(direction) > least_axis)) fault(at + "/" + field.name, "a direction has a length other than 0");
     c.values.insert(c.values.end(), direction.v, direction.v + 3);
   }
   add(scene.couplings, "couplings", std::move(c), at);

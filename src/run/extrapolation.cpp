@@ -49,19 +49,10 @@ class Magnitudes {
   std::size_t width_;
 };
 
-/// Number of times from the start up to which the differences are those of an error of this order; and how far they are
-/// from it, over q times the largest.
-struct Fit {
-  std::size_t good = 0;
-  double distance = 0.0;
-};
-
-Fit fit(const MemberDifferences& d, double q, double round_off) {
+/// Number of times from the start up to which the differences are those of an error of order log2(q).
+std::size_t times_of_order(const MemberDifferences& d, double q, double round_off) {
   const std::size_t times = d.fine.size() / d.width;
-  Fit fit;
   const double largest = std::max(round_off, Magnitudes(d.fine, d.width).largest());
-  double square = 0.0;
-  bool is_good = true;
   for (std::size_t k = 0; k < times; ++k) {
     double along = 0.0, off = 0.0;
     for (std::size_t i = k * d.width; i < (k + 1) * d.width; ++i) {
@@ -69,14 +60,9 @@ Fit fit(const MemberDifferences& d, double q, double round_off) {
       along += delta * d.fine[i];
       off += delta * delta;
     }
-    square += off;
-    const double most = (along > 0.0 ? most_above : most_below) * q * largest;
-    is_good = is_good && std::sqrt(off) <= most;
-    if (is_good) fit.good = k + 1;
+    if (!(std::sqrt(off) <= (along > 0.0 ? most_above : most_below) * q * largest)) return k;
   }
-  const double size = q * Magnitudes(d.fine, d.width).root_mean_square();
-  fit.distance = size > 0.0 ? std::sqrt(square) / size : std::numeric_limits<double>::max();
-  return fit;
+  return times;
 }
 
 double log2_ratio(double above, double below) {
@@ -102,7 +88,7 @@ Extrapolation extrapolate(const MemberDifferences& d, std::span<const double> ti
   ErrorPart& part = result.part;
   const Magnitudes fine(d.fine, d.width), coarse(d.coarse, d.width);
   if (fine.size() == 0) return result;
-  part.theoretical_order = theory.orders.front();
+  part.theoretical_order = theory.order;
   const auto tell = [&part, times](const Magnitudes& m) {
     part.largest = m.largest();
     part.root_mean_square = m.root_mean_square();
@@ -115,24 +101,18 @@ Extrapolation extrapolate(const MemberDifferences& d, std::span<const double> ti
     part.largest = part.root_mean_square = theory.round_off;
     return result;
   }
-  double order = theory.orders.front();
-  Fit best;
+  const double q = std::exp2(theory.order);
+  std::size_t good = 0;
   if (coarse.size() == 0) {
     part.state = ErrorState::unexamined;
   } else {
     part.order_of_largest = log2_ratio(coarse.largest(), fine.largest());
     part.order_of_root_mean_square = log2_ratio(coarse.root_mean_square(), fine.root_mean_square());
-    for (const double p : theory.orders) {
-      const Fit f = fit(d, std::exp2(p), theory.round_off);
-      if (f.good < best.good || (f.good == best.good && f.good > 0 && f.distance >= best.distance)) continue;
-      best = f;
-      order = p;
-    }
-    part.state = best.good == fine.size() ? ErrorState::resolved : ErrorState::not_resolved;
+    good = times_of_order(d, q, theory.round_off);
+    part.state = good == fine.size() ? ErrorState::resolved : ErrorState::not_resolved;
   }
-  part.theoretical_order = order;
   if (part.state != ErrorState::not_resolved) {
-    result.error = error_of(d, run, std::exp2(order));
+    result.error = error_of(d, run, q);
     tell(Magnitudes(result.error, d.width));
     part.at_end = d.width == 1 ? result.error.back() : Magnitudes(result.error, d.width).at(fine.size() - 1);
     return result;
@@ -144,9 +124,9 @@ Extrapolation extrapolate(const MemberDifferences& d, std::span<const double> ti
   }
   const bool is_of_coarsest = run == 2;
   tell(is_of_coarsest ? coarse : fine);
-  if (best.good > 0 && best.good < fine.size())
-    part.cause = "from " + io::rounded_text(times[best.good], 4) + " on members do not differ as an error of order " +
-                 io::rounded_text(order, 2) + " does";
+  if (good > 0 && good < fine.size())
+    part.cause = "from " + io::rounded_text(times[good], 4) + " on members do not differ as an error of order " +
+                 io::rounded_text(theory.order, 2) + " does";
   return result;
 }
 

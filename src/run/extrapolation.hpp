@@ -23,14 +23,14 @@ struct Extrapolation {
 
 /// Theory that errors are compared with.
 struct ErrorTheory {
-  std::vector<double> orders;  ///< that the quantity may have, the usual one first
-  double round_off = 0.0;      ///< below which differences are round-off, whatever their order
-  double floor = 0.0;          ///< what the tolerance of Newton's method and round-off leave open
+  double order = 0.0;      ///< 0: members differ in what results do not depend on
+  double round_off = 0.0;  ///< below which differences are round-off, whatever their order
+  double floor = 0.0;      ///< what the tolerance of Newton's method and round-off leave open
 };
 
 /// Richardson's extrapolation of one quantity. With d = fine, D = coarse and q = 2^p, errors of order p have D = q d at
-/// all times, and the limit is the finest member plus d / (q - 1). The error is resolved where D / d is near q for one of the
-/// orders; a single time at which it is not, measured against the largest d of all times, makes it unresolved.
+/// all times, and the limit is the finest member plus d / (q - 1). The error is resolved where D / d is near q; a single
+/// time at which it is not, measured against the largest d of all times, makes it unresolved.
 /// run: which member's error is told, 0 the finest, 1 the middle one, 2 the coarsest.
 /// times: one for each entry of the differences; of a figure a single one.
 Extrapolation extrapolate(const MemberDifferences& d, std::span<const double> times, int run,

@@ -19,11 +19,8 @@ Quaternion quaternion_in(const ComparedColumns& columns, const double* v) {
 }
 
 /// Rotation vector of a unit quaternion, at most pi long [rad].
-motion::Vec3<double> vector_of(Quaternion q) {
-  if (q.w < 0.0) q = {-q.w, -q.v};
-  const double sine = std::hypot(q.v[0], q.v[1], q.v[2]);
-  const double factor = sine > 0.0 ? 2.0 * std::atan2(sine, q.w) / sine : 2.0;
-  return factor * q.v;
+motion::Vec3<double> vector_of(const Quaternion& q) {
+  return motion::log_quaternion(q.w < 0.0 ? Quaternion{-q.w, -q.v} : q);
 }
 
 }  // namespace

@@ -25,26 +25,26 @@ constexpr double rounding = 1e-13;  ///< of sums and of motions integrated, rela
 struct Twinned {
   std::vector<const TwinRun*> twins;  ///< null: the run itself; the finest first
   int run = 0;                        ///< place of the run
-  std::vector<double> orders;         ///< none: members differ in load steps, on which results do not depend
+  double order = 0.0;                 ///< 0: members differ in load steps, on which results do not depend
   std::string missing;                ///< why there are no twins; then there is nothing else
 };
 
-/// Orders of the error in time of the integrator.
-std::vector<double> orders_in_time(const RunWithTwins& run) {
+/// Order of the error in time of the integrator.
+double order_in_time(const RunWithTwins& run) {
   const scene::Analysis& analysis = run.scene.analysis;
-  if (!scene::type_of(analysis.kind).integrates) return {};
-  if (analysis.integrator != scene::Integrator::bdf) return {2.0};
+  if (!scene::type_of(analysis.kind).integrates) return 0.0;
+  if (analysis.integrator != scene::Integrator::bdf) return 2.0;
   const auto& options = run.summary.options;
   const bool is_second = std::find(options.begin(), options.end(),
                                    std::pair<std::string, std::string>("analysis/bdf_order", "2")) != options.end();
-  return {is_second ? 2.0 : 3.0};
+  return is_second ? 2.0 : 3.0;
 }
 
 /// Nodes of beams of order k converge with 2 k.
-std::vector<double> orders_of_mesh(const scene::Scene& scene) {
+double order_of_mesh(const scene::Scene& scene) {
   int order = 3;
   for (const scene::Beam& b : scene.beams) order = std::min(order, b.order);
-  return {2.0 * order};
+  return 2.0 * order;
 }
 
 /// The run and its twins of a kind, each half as fine as the one before.
@@ -68,7 +68,7 @@ Twinned twinned(const RunWithTwins& run, bool is_of_mesh) {
   while (end < members.size() && is_half(end)) ++end;
   for (std::size_t k = begin; k < end; ++k) t.twins.push_back(members[k].second);
   t.run = static_cast<int>(at - begin);
-  t.orders = is_of_mesh ? orders_of_mesh(run.scene) : orders_in_time(run);
+  t.order = is_of_mesh ? order_of_mesh(run.scene) : order_in_time(run);
   return t;
 }
 
@@ -108,7 +108,7 @@ class Scales {
 /// Of load steps: equilibria do not depend on them, unless one leads to another equilibrium.
 Extrapolation compare_equilibria(const MemberDifferences& d, std::span<const double> times, const ErrorTheory& theory) {
   ErrorTheory any = theory;
-  any.orders = {1.0};
+  any.order = 1.0;
   Extrapolation e = extrapolate(d, times, 0, any);
   e.error.clear();
   e.part.theoretical_order = e.part.at_end = 0.0;
@@ -177,8 +177,8 @@ class Part {
     return e;
   }
   Extrapolation eval(const MemberDifferences& d, std::span<const double> times, double scale) const {
-    const ErrorTheory theory{twinned_.orders, rounding * scale, run_.scene.analysis.tolerance * scale};
-    if (twinned_.orders.empty()) return compare_equilibria(d, times, theory);
+    const ErrorTheory theory{twinned_.order, rounding * scale, run_.scene.analysis.tolerance * scale};
+    if (twinned_.order == 0.0) return compare_equilibria(d, times, theory);
     Extrapolation e = extrapolate(d, times, twinned_.run, theory);
     if (e.part.state == ErrorState::not_resolved && is_of_mesh_ && e.part.cause.empty() && run_.scene.beams.size() == 1)
       e.part.cause = "beam '" + run_.scene.beams.front().name + "' has too few elements";

@@ -187,7 +187,8 @@ void check_catalogued(ProblemList& list, std::size_t i) {
   const double* value = c.values.data();
   for (const CouplingField& field : c.kind->fields) {
     if (field.type != CouplingFieldType::number) {
-      if (const double length = norm(Vec3{{value[0], value[1], value[2]}}); !(length > 0.0 && std::isfinite(length)))
+      constexpr double least = 1e-150;  // the square of a smaller length is 0
+      if (const double length = norm(Vec3{{value[0], value[1], value[2]}}); !(length > least && std::isfinite(length)))
         list.add("couplings", i, field.name, "", "a direction has a length other than 0");
     } else if (!std::isfinite(*value) || *value < field.low || (field.is_low_open && *value == field.low)) {
       list.add("couplings", i, field.name, text_of(*value),

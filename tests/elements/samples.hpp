@@ -3,6 +3,7 @@
 /// ground. All magnitudes are near one, so that one tolerance holds for forces and moments alike.
 #include <algorithm>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -237,7 +238,8 @@ inline Sample<Bushing> driven_bushing_sample(Ends ends) {
 /// A coupling of the catalogue with any numbers that its kind allows, drawn until it is strained.
 template <IsCatalogued E>
 Sample<E> catalogued_sample(Ends ends) {
-  for (unsigned seed = 350;; ++seed) {
+  constexpr unsigned first_seed = 350, most_draws = 10000;
+  for (unsigned seed = first_seed; seed < first_seed + most_draws; ++seed) {
     Numbers numbers(seed);
     Sample<E> s;
     s.name = std::string(E::words.name) + ", ends " + std::to_string(static_cast<int>(ends));
@@ -254,6 +256,7 @@ Sample<E> catalogued_sample(Ends ends) {
     const PortMotion<double> at[2] = {{first, {}, {}}, {second, {}, {}}};
     if (eval_strain_energy(s.element, at) > 0.5) return s;
   }
+  throw std::runtime_error(std::string(E::words.name) + ": no sample is strained");
 }
 
 inline ConstraintRow row_of(RowKind kind, int i = 0, int j = 0, int law = -1, double constant = 0.0) {
@@ -335,6 +338,7 @@ inline Sample<Joint> undamped(Sample<Joint> s) {
 template <IsCatalogued E>
 Sample<E> undamped(Sample<E> s) {
   s.name += ", undamped";
+  if (!looks_at_rates(s.element)) return s;
   const auto leave_out = [&](const auto& datum) {
     if constexpr (std::decay_t<decltype(datum)>::type == scene::CouplingFieldType::number) {
       const double value = std::exchange(s.element.*datum.member, 0.0);

@@ -171,17 +171,25 @@ TEST(TorsionSpring, swings_at_its_frequency) {
 
 // What a scene says wrongly is told by the declaration, all at once.
 TEST(Couplings, are_refused_by_what_they_declare) {
-  std::string told;
-  try {
-    static_cast<void>(scene_of(R"({"bodies": [{"name": "ball", "mass": 2, "inertia": [1, 1, 1]}],
-    "contacts": [{"name": "floor", "first": "ground", "second": "ball", "normal": [0, 0, 1], "radius": -1, "stifness": 2}],
-    "torsion_springs": [{"name": "floor", "first": "ball", "second": "ball", "axis": [1, 0, 0]}],
-    "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.1}})"));
-  } catch (const std::runtime_error& e) {
-    told = e.what();
-  }
+  const auto told_of = [](const std::string& contact, const std::string& spring) {
+    try {
+      static_cast<void>(scene_of(R"({"bodies": [{"name": "ball", "mass": 2, "inertia": [1, 1, 1]}],
+        "contacts": [{"name": "floor", "first": "ground", "second": "ball", )" +
+                                 contact + R"(}], "torsion_springs": [{"name": "spring", "second": "ball", )" + spring +
+                                 R"(}], "analysis": {"kind": "dynamic", "end_time": 1, "step_size": 0.1}})"));
+    } catch (const std::runtime_error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  const std::string keys =
+      told_of(R"("normal": [0, 0, 1], "radius": -1, "stifness": 2)", R"("first": "ball", "axis": [1, 0, 0])");
   for (const char* part : {"/contacts/0/radius", "stifness", "\"stiffness\"", "first and second are the same thing"})
-    EXPECT_NE(told.find(part), std::string::npos) << part << " in " << told;
+    EXPECT_NE(keys.find(part), std::string::npos) << part << " in " << keys;
+  const std::string directions =
+      told_of(R"("normal": [0, 0, 0], "stiffness": 2)", R"("first": "ground", "axis": [0, 1e-200, 0])");
+  for (const char* part : {"/contacts/0/normal", "/torsion_springs/0/axis"})
+    EXPECT_NE(directions.find(part), std::string::npos) << part << " in " << directions;
 }
 
 }  // namespace
