@@ -17,10 +17,6 @@ constexpr auto emit_for(const std::tuple<E...>*) {
       return NothingToEmit{};
   }()...};
 }
-/// All elements in space.
-using AllInSpace = decltype(std::tuple_cat(std::tuple<Beam<2>, Beam<3>, Beam<4>, RigidBody, Spring, Bushing, PointLoad,
-                                                      LineLoad<2>, LineLoad<3>, LineLoad<4>>{},
-                                           CatalogueOn<motion::Se3>{}));
 
 }  // namespace bough::elements::detail
 
@@ -39,4 +35,4 @@ using AllInSpace = decltype(std::tuple_cat(std::tuple<Beam<2>, Beam<3>, Beam<4>,
   BOUGH_EMIT(functions_of, _in_plane, CatalogueOn<motion::Se2>)              \
   BOUGH_EMIT(functions_of, _of_places, CatalogueOn<motion::Translations<3>>) \
   BOUGH_EMIT(functions_of, _on_line, CatalogueOn<motion::Translations<1>>)
-#define BOUGH_EMIT_FOR_ALL(functions_of) BOUGH_EMIT(functions_of, _all, detail::AllInSpace)
+#define BOUGH_EMIT_FOR_ALL(functions_of) BOUGH_EMIT(functions_of, _all, ElementsOn<motion::Se3>)

@@ -15,19 +15,12 @@ struct NoElement {};
 template <class E>
 using ArrayOf = std::vector<std::conditional_t<elements::exists<E>, E, NoElement>>;
 namespace detail {
-template <class... Arrays, class... E>
-std::tuple<Arrays..., ArrayOf<E>...> add_arrays(std::tuple<Arrays...>*, std::tuple<E...>*);
+template <class... E>
+std::tuple<ArrayOf<E>...> arrays_of(std::tuple<E...>*);
 }  // namespace detail
-/// The arrays of elements on the group G, those of the catalogue last. An element has the same place in the arrays of
-/// all groups.
+/// The arrays of elements on the group G, in the order of `elements::ElementsOn`.
 template <class G>
-using ArraysOn = decltype(detail::add_arrays(
-    static_cast<std::tuple<
-        ArrayOf<elements::BeamOn<G, 2>>, ArrayOf<elements::BeamOn<G, 3>>, ArrayOf<elements::BeamOn<G, 4>>,
-        ArrayOf<elements::RigidBodyOn<G>>, ArrayOf<elements::JointOn<G>>, ArrayOf<elements::SpringOn<G>>,
-        ArrayOf<elements::BushingOn<G>>, ArrayOf<elements::PointLoadOn<G>>, ArrayOf<elements::LineLoadOn<G, 2>>,
-        ArrayOf<elements::LineLoadOn<G, 3>>, ArrayOf<elements::LineLoadOn<G, 4>>>*>(nullptr),
-    static_cast<elements::CatalogueOn<G>*>(nullptr)));
+using ArraysOn = decltype(detail::arrays_of(static_cast<elements::ElementsOn<G>*>(nullptr)));
 using ElementArrays = ArraysOn<motion::Se3>;
 
 namespace detail {
