@@ -54,7 +54,7 @@ std::string first_problems(const io::SceneFile& file) {
 
 records::Summary simulate(const scene::Scene& scene, const CaseSettings& settings,
                           std::chrono::steady_clock::time_point start, records::Recorder& recorder) {
-  run::SimulateOptions options{.threads = std::min(scene.solver.threads, settings.threads)};
+  run::SimulateOptions options{.threads = std::min(scene.solver.threads, settings.threads), .checks_estimate = true};
   options.stopped_by = [&]() -> std::string {
     const std::chrono::duration<double> age = std::chrono::steady_clock::now() - start;
     const bool is_late = settings.time_limit > 0.0 && age.count() >= 0.99 * settings.time_limit;

@@ -34,6 +34,7 @@ std::optional<records::Summary> simulate_into(io::RunDirectory& directory, const
   run::SimulateOptions options;
   options.threads = arguments.threads > 0 ? arguments.threads : default_threads();
   options.from = from;
+  options.checks_estimate = true;
   records::Summary summary;
   try {
     summary = run::simulate(file.scene, options, directory, on_step);

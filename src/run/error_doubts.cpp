@@ -15,6 +15,13 @@ using records::ErrorState;
 namespace {
 
 std::string two_digits(double value) { return io::rounded_text(value, 2); }
+std::string percent(double share) { return io::rounded_text(100.0 * share, share < 1.0 ? 2 : 3) + " %"; }
+
+const ErrorOf* column_named(const records::MeasuredErrors& errors, const std::string& name) {
+  const auto at =
+      std::find_if(errors.columns.begin(), errors.columns.end(), [&](const ErrorOf& e) { return e.name == name; });
+  return at != errors.columns.end() ? &*at : nullptr;
+}
 
 /// What a kind of error is called, and what makes it less.
 struct Words {
@@ -22,19 +29,29 @@ struct Words {
 };
 constexpr Words in_time{"in time", "take smaller steps"}, of_mesh{"of the mesh", "take more elements"};
 
-/// Whether twins tell of all that the estimate doubts: they know its error, or doubt it themselves.
+/// A run that differs from its next twin by no more than this part of the bound, which differs from the one after it by
+/// no more than the bound, is right to the bound whatever the order of the errors: where they are of first order, the
+/// error is that difference, and of order 1/2 it is 2.4 times that.
+constexpr double agreement = 0.25;
+
+bool agrees(const ErrorPart& part, double bound) {
+  return part.state == ErrorState::not_resolved && part.largest <= agreement * bound && part.spread <= bound;
+}
+bool is_told(const ErrorPart& part, double bound) {
+  return part.is_known() || agrees(part, bound) || (part.state == ErrorState::not_resolved && part.largest > bound);
+}
+
+/// Whether twins tell of all that the estimate doubts: they know its error, agree on it, or doubt it themselves.
 bool is_replaced(const records::MeasuredErrors& errors, const records::Summary& summary, const TrustLimits& limits) {
-  const auto is_told = [&](const std::string& column) {
-    const auto at =
-        std::find_if(errors.columns.begin(), errors.columns.end(), [&](const ErrorOf& e) { return e.name == column; });
-    return at != errors.columns.end() && (at->time.is_known() || (at->time.state == ErrorState::not_resolved &&
-                                                                  at->time.largest > limits.sensor_error * at->range));
+  const auto is_told_of = [&](const std::string& column) {
+    const ErrorOf* const e = column_named(errors, column);
+    return e != nullptr && is_told(e->time, limits.sensor_error * e->range);
   };
   if (summary.sensor_errors.empty())
     return !errors.columns.empty() && std::all_of(errors.columns.begin(), errors.columns.end(),
                                                   [](const ErrorOf& e) { return e.time.is_known(); });
   return std::all_of(summary.sensor_errors.begin(), summary.sensor_errors.end(), [&](const records::SensorError& e) {
-    return e.relative() <= limits.sensor_error || is_told(e.column);
+    return e.relative() <= limits.sensor_error || is_told_of(e.column);
   });
 }
 
@@ -53,11 +70,10 @@ void doubt_worst(const records::MeasuredErrors& errors, ErrorPart ErrorOf::*part
   }
   if (worst == nullptr) return;
   const ErrorPart& p = worst->*part;
-  const std::string share = ", " + two_digits(100.0 * p.largest / worst->range) + " % of the " +
-                            two_digits(worst->range) + " over which it ranges";
-  const std::string others = count > 1 ? " (and " + std::to_string(count - 1) + " more columns by more than " +
-                                             two_digits(100.0 * bound) + " %)"
-                                       : "";
+  const std::string share =
+      ", " + percent(p.largest / worst->range) + " of the " + two_digits(worst->range) + " over which it ranges";
+  const std::string others =
+      count > 1 ? " (and " + std::to_string(count - 1) + " more columns by more than " + percent(bound) + ")" : "";
   if (is_known)
     doubts.push_back({"error", "'" + worst->name + "' has an error " + words.of + " of up to " + two_digits(p.largest) +
                                    share + others + ", measured by twins; " + words.remedy});
@@ -95,6 +111,57 @@ void judge_errors(const records::MeasuredErrors& errors, const scene::ErrorsWant
   }
   summary.not_judged = one_line({summary.not_judged, wanted.time ? left_out(errors, &ErrorOf::time, in_time) : "",
                                  wanted.mesh ? left_out(errors, &ErrorOf::mesh, of_mesh) : ""});
+}
+
+bool is_estimate_doubted(const records::Summary& summary) {
+  return std::any_of(summary.doubts.begin(), summary.doubts.end(),
+                     [](const records::Doubt& d) { return d.about == estimate_beside_twins; });
+}
+
+void check_estimate(const records::MeasuredErrors& errors, records::Summary& summary) {
+  const TrustLimits limits;
+  // Without sensors of motion the estimate is one of all columns.
+  std::vector<const ErrorOf*> doubted;
+  for (const ErrorOf& e : errors.columns) {
+    const auto estimate = std::find_if(summary.sensor_errors.begin(), summary.sensor_errors.end(),
+                                       [&](const records::SensorError& s) { return s.column == e.name; });
+    if (estimate == summary.sensor_errors.end() ? summary.sensor_errors.empty()
+                                                : estimate->relative() > limits.sensor_error)
+      doubted.push_back(&e);
+  }
+  double most = 0.0;  // over the range
+  bool are_known = !doubted.empty(), are_right = are_known;
+  for (const ErrorOf* e : doubted) {
+    const double bound = limits.sensor_error * e->range;
+    are_known = are_known && e->time.is_known();
+    are_right = are_right && ((e->time.is_known() && e->time.largest <= bound) || agrees(e->time, bound));
+    if (e->range > 0.0) most = std::max(most, e->time.largest / e->range);
+  }
+  const std::string runs = "runs in steps twice and four times as long ";
+  if (!are_right && !are_known) {
+    keep_estimates_doubt(summary, runs + "differ from it by up to " + percent(most) +
+                                      " of a range, and not as errors of second order do");
+    return;
+  }
+  std::erase_if(summary.doubts, [](const records::Doubt& d) { return d.about == estimate_beside_twins; });
+  for (records::SensorError& s : summary.sensor_errors)
+    if (const ErrorOf* const e = column_named(errors, s.column); e != nullptr && e->time.largest > 0.0) {
+      s.of_steps = e->time.largest;
+      s.of_energy = 0.0;
+    }
+  if (are_right)
+    summary.notes.push_back("the estimated error in time was large; " + runs + "put it at " + percent(most) +
+                            " of a range or less");
+  else
+    doubt_worst(errors, &ErrorOf::time, in_time, true, limits.sensor_error, summary.doubts);
+}
+
+void keep_estimates_doubt(records::Summary& summary, const std::string& more) {
+  for (records::Doubt& d : summary.doubts) {
+    if (d.about != estimate_beside_twins) continue;
+    d.about = "error";
+    if (!more.empty()) d.text += "; " + more;
+  }
 }
 
 }  // namespace bough::run

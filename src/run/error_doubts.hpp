@@ -10,4 +10,15 @@ namespace bough::run {
 /// not judged.
 void judge_errors(const records::MeasuredErrors& errors, const scene::ErrorsWanted& wanted, records::Summary& summary);
 
+/// Whether the estimate of the error in time doubts a run, in a doubt about `estimate_beside_twins`.
+bool is_estimate_doubted(const records::Summary& summary);
+
+/// Lets twins in time, run because the estimate doubts a run, decide on the columns that it doubts. Errors that they
+/// know, or on which they agree, take the place of estimates: the doubt goes, or is one of the measured error. Else the
+/// doubt stays, and says by how much they differ.
+void check_estimate(const records::MeasuredErrors& errors, records::Summary& summary);
+
+/// The doubt of the estimate, if there is one, is one about the error; `more` is added to its text.
+void keep_estimates_doubt(records::Summary& summary, const std::string& more = {});
+
 }  // namespace bough::run

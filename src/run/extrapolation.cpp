@@ -89,6 +89,7 @@ Extrapolation extrapolate(const MemberDifferences& d, std::span<const double> ti
   const Magnitudes fine(d.fine, d.width), coarse(d.coarse, d.width);
   if (fine.size() == 0) return result;
   part.theoretical_order = theory.order;
+  part.spread = std::max(fine.largest(), coarse.largest());
   const auto tell = [&part, times](const Magnitudes& m) {
     part.largest = m.largest();
     part.root_mean_square = m.root_mean_square();

@@ -100,9 +100,9 @@ void judge(const EndedRun& run) {
   }
   run.analysis.sum_up();
   summary.not_judged = run.analysis.not_judged();
-  summary.doubts =
-      doubts_of(summary, plan.is_dynamic, {},
-                {least_force, run.analysis.errors_grow_in(), run.measured.time ? estimate_beside_twins : "error"});
+  summary.doubts = doubts_of(
+      summary, plan.is_dynamic, {},
+      {least_force, run.analysis.errors_grow_in(), run.is_estimate_checked ? estimate_beside_twins : "error"});
   if (const std::string passed = recording.springs().text(); !passed.empty())
     summary.doubts.push_back({"springs", passed});
   if (const std::string far = recording.far_forces().text(); !far.empty()) summary.doubts.push_back({"round-off", far});

@@ -12,7 +12,7 @@ struct EndedRun {
   const step::State& state;
   Recording& recording;
   Analysis& analysis;
-  scene::ErrorsWanted measured;  ///< by twins
+  bool is_estimate_checked;  ///< by twins, beside the run or after it
 };
 
 /// Completes the summary: counts and times of the work, checks, figures, properties of the last factorization, doubts.

@@ -73,7 +73,7 @@ MemoryRun run_in_memory(const scene::Scene& scene, const SimulateOptions& option
 }
 
 MemoryRun run_in_memory(const scene::Scene& scene, int threads) {
-  return run_in_memory(scene, SimulateOptions{.threads = threads});
+  return run_in_memory(scene, SimulateOptions{.threads = threads, .checks_estimate = true});
 }
 
 }  // namespace bough::run

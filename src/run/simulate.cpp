@@ -1,14 +1,32 @@
 #include "bough/run/simulate.hpp"
 
+#include "bough/run/estimate.hpp"
 #include "bough/run/simulation.hpp"
+#include "bough/scene/analysis_kinds.hpp"
 #include "twins.hpp"
 
 namespace bough::run {
 
+namespace {
+
+/// Twins take as long as three quarters of the run, which nobody asked for: no more than this, estimated.
+constexpr double most_seconds = 30.0;
+
+bool can_check(const scene::Scene& scene) {
+  const scene::Analysis& analysis = scene.analysis;
+  return scene::type_of(analysis.kind).integrates && !analysis.step_control && scene.output.checks &&
+         estimate_run(scene).seconds() < most_seconds;
+}
+
+}  // namespace
+
 records::Summary simulate(const scene::Scene& scene, const SimulateOptions& options, records::Recorder& recorder,
                           const ProgressCallback& progress) {
   if (scene.analysis.errors.any()) return simulate_with_twins(scene, options, recorder, progress);
-  Simulation simulation(scene, options, &recorder, progress);
+  if (options.checks_estimate && can_check(scene)) return simulate_and_check(scene, options, recorder, progress);
+  SimulateOptions alone = options;
+  alone.checks_estimate = false;
+  Simulation simulation(scene, std::move(alone), &recorder, progress);
   (void)simulation.run();
   return simulation.finish();
 }

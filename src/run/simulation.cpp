@@ -270,7 +270,8 @@ const records::Summary& Simulation::finish() {
   if (summary.status != RunStatus::ok) (void)p.system.set_time(p.state.time);  // a failed step may have left another
   p.recording->hand_out(p.state);
   p.stage = Impl::Stage::finished;
-  judge({p.scene, p.options, p.system, p.state, *p.recording, *p.analysis, p.asked.measured});
+  judge({p.scene, p.options, p.system, p.state, *p.recording, *p.analysis,
+         p.asked.measured.time || p.asked.checks_estimate});
   if (p.asked.after_run) p.asked.after_run(p.system, p.state);
   p.recorder.end(summary);
   return summary;

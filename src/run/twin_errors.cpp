@@ -350,6 +350,7 @@ class ErrorReport {
     if (part.state == ErrorState::not_resolved && columns.kind == Kind::quaternion) {
       part.largest *= 0.5;  // of half the angle
       part.root_mean_square *= 0.5;
+      part.spread *= 0.5;
     }
     if (part.state != ErrorState::resolved && part.state != ErrorState::unexamined) return;
     part.largest = part.root_mean_square = 0.0;

@@ -4,8 +4,10 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <numeric>
+#include <span>
 
 #include "bough/run/simulation.hpp"
 #include "bough/scene/analysis_kinds.hpp"
@@ -19,14 +21,19 @@ using records::RunStatus;
 
 namespace {
 
-/// Passes a run on to its recorder, all but the end, and keeps its rows.
+/// Passes a run on to its recorder, all but the end, and keeps its rows: all of them, or at least half of `most` at even
+/// distances.
 class Relay final : public records::Recorder {
  public:
-  explicit Relay(records::Recorder& to) : to_(to) {}
+  explicit Relay(records::Recorder& to, std::size_t most = std::numeric_limits<std::size_t>::max())
+      : to_(to), most_(most) {}
 
   void begin(const records::HistoryHeader& header) override { to_.begin(header); }
   void row(const records::HistoryRow& row) override {
-    rows.push_back(row);
+    if (count_++ % every_ == 0) {
+      rows.push_back(row);
+      if (rows.size() >= most_) halve();
+    }
     to_.row(row);
   }
   void motion(const records::MotionFrame& frame) override { to_.motion(frame); }
@@ -47,8 +54,24 @@ class Relay final : public records::Recorder {
   bool goes_on = false;  ///< the run goes on from a checkpoint, and rows before it are not here
 
  private:
+  void halve() {
+    for (std::size_t k = 1; 2 * k < rows.size(); ++k) rows[k] = std::move(rows[2 * k]);
+    rows.resize((rows.size() + 1) / 2);
+    every_ *= 2;
+  }
+
   records::Recorder& to_;
+  std::size_t most_, count_ = 0, every_ = 1;
 };
+
+MemberSeries series_of(std::span<const records::HistoryRow> rows) {
+  MemberSeries series;
+  for (const records::HistoryRow& row : rows) {
+    series.times.push_back(row.time);
+    series.values.push_back(row.values);
+  }
+  return series;
+}
 
 /// Keeps the rows of a twin.
 class RowKeeper final : public records::Recorder {
@@ -83,31 +106,62 @@ std::vector<double> times_to_compare(const scene::Scene& scene, double start, co
   return times;
 }
 
-/// A run and its twins while they go on.
-class SideBySide {
+/// Times of rows of a run at which twins are compared with it after its end: where the longest of their steps end, if
+/// some of the rows are there.
+std::vector<double> times_of_rows(const std::vector<records::HistoryRow>& rows, double longest_step) {
+  constexpr double round_off = 1e-6;  // of a step
+  constexpr std::size_t fewest = 8;
+  std::vector<double> at_ends, all;
+  for (const records::HistoryRow& row : rows) {
+    const double steps = (row.time - rows.front().time) / longest_step;
+    if (std::abs(steps - std::round(steps)) < round_off) at_ends.push_back(row.time);
+    all.push_back(row.time);
+  }
+  return at_ends.size() < fewest ? all : at_ends;
+}
+
+constexpr std::size_t most_rows = 2048;  ///< of a run that its twins are compared with only if it is doubted
+
+/// A run and its twins, while they go on side by side or one after the other.
+class RunWithItsTwins {
  public:
-  SideBySide(const scene::Scene& scene, const SimulateOptions& options, records::Recorder& recorder,
-             const ProgressCallback& progress)
-      : scene_(scene), options_(options), recorder_(recorder), progress_(progress), twins_(make_twins(scene)) {
-    if (scene::type_of(scene.analysis.kind).integrates)
-      times_ = times_to_compare(scene, options.from ? start_time(*options.from) : 0.0, twins_);
-    runs_.resize(twins_.members.size());
+  RunWithItsTwins(const scene::Scene& scene, const SimulateOptions& options, records::Recorder& recorder,
+                  const ProgressCallback& progress)
+      : scene_(scene),
+        options_(options),
+        recorder_(recorder),
+        progress_(progress),
+        relay_(recorder, scene.analysis.errors.any() ? std::numeric_limits<std::size_t>::max() : most_rows) {}
+
+  records::Summary run_side_by_side() {
+    twins_ = make_twins(scene_);
+    if (scene::type_of(scene_.analysis.kind).integrates)
+      times_ = times_to_compare(scene_, options_.from ? start_time(*options_.from) : 0.0, twins_);
+    run_tasks({[this] { simulate_run(); }});
+    conclude();
+    recorder_.end(summary_);
+    return std::move(summary_);
   }
 
-  records::Summary run() {
-    std::vector<std::function<void()>> tasks = {[this] { simulate_run(); }};
+  records::Summary run_and_check() {
+    simulate_run();
+    if (is_estimate_doubted(summary_)) check();
+    recorder_.end(summary_);
+    return std::move(summary_);
+  }
+
+ private:
+  /// Runs these tasks and all twins, long ones first.
+  void run_tasks(std::vector<std::function<void()>> tasks) {
+    runs_.resize(twins_.members.size());
     std::vector<std::size_t> order(twins_.members.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
                      [this](std::size_t a, std::size_t b) { return twins_.members[a].cost > twins_.members[b].cost; });
     for (const std::size_t k : order) tasks.emplace_back([this, k] { simulate_twin(k); });
     schedule::run_side_by_side(options_.threads, tasks);
-    conclude();
-    recorder_.end(summary_);
-    return std::move(summary_);
   }
 
- private:
   /// Its part of the threads, by its part of the work.
   int threads_for(double cost) const {
     double all = 1.0;
@@ -137,6 +191,7 @@ class SideBySide {
       SimulateOptions options = options_;
       options.threads = threads_for(1.0);
       options.measured = scene_.analysis.errors;
+      options.checks_estimate = !options.measured.any();
       sample_into(series_, options);
       Simulation simulation(scene_, std::move(options), &relay_, [this](const records::Progress& p) {
         last_ = p;
@@ -185,6 +240,25 @@ class SideBySide {
     run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   }
 
+  void check() {
+    scene::Scene wanted = scene_;
+    wanted.analysis.errors = {.time = true};
+    twins_ = make_twins(wanted);
+    times_ = times_of_rows(relay_.rows, twins_.members.empty() ? 1.0 : twins_.members.back().scene.analysis.step_size);
+    if (summary_.status != RunStatus::ok || relay_.goes_on || twins_.members.size() < 2) {
+      keep_estimates_doubt(summary_);
+      return;
+    }
+    run_tasks({});
+    if (is_stopped_) {
+      keep_estimates_doubt(summary_);
+      return;
+    }
+    series_ = series_of(relay_.rows);
+    check_estimate(measure_errors({wanted, summary_, std::move(series_), std::move(relay_.rows), std::move(runs_), {}}),
+                   summary_);
+  }
+
   void conclude() {
     if (summary_.status != RunStatus::ok) {
       summary_.notes.emplace_back("no errors were measured: the run did not reach its end");
@@ -194,11 +268,7 @@ class SideBySide {
       summary_.notes.emplace_back("no errors were measured: twins of the run were stopped");
       return;
     }
-    if (times_.empty())
-      for (const records::HistoryRow& row : relay_.rows) {
-        series_.times.push_back(row.time);
-        series_.values.push_back(row.values);
-      }
+    if (times_.empty()) series_ = series_of(relay_.rows);
     if (relay_.goes_on)
       twins_.remarks.emplace_back("the run went on from a checkpoint: errors are those of the time since then");
     auto errors = std::make_shared<records::MeasuredErrors>(measure_errors(
@@ -211,7 +281,7 @@ class SideBySide {
   const SimulateOptions& options_;
   records::Recorder& recorder_;
   const ProgressCallback& progress_;
-  Relay relay_{recorder_};
+  Relay relay_;
   Twins twins_;
   std::vector<double> times_;  ///< in dynamics; else rows are compared
   MemberSeries series_;
@@ -226,7 +296,12 @@ class SideBySide {
 
 records::Summary simulate_with_twins(const scene::Scene& scene, const SimulateOptions& options,
                                      records::Recorder& recorder, const ProgressCallback& progress) {
-  return SideBySide(scene, options, recorder, progress).run();
+  return RunWithItsTwins(scene, options, recorder, progress).run_side_by_side();
+}
+
+records::Summary simulate_and_check(const scene::Scene& scene, const SimulateOptions& options,
+                                    records::Recorder& recorder, const ProgressCallback& progress) {
+  return RunWithItsTwins(scene, options, recorder, progress).run_and_check();
 }
 
 }  // namespace bough::run

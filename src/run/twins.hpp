@@ -9,4 +9,9 @@ namespace bough::run {
 records::Summary simulate_with_twins(const scene::Scene& scene, const SimulateOptions& options,
                                      records::Recorder& recorder, const ProgressCallback& progress);
 
+/// Runs a scene and, if the estimate of its error in time doubts it, two twins with steps of twice and four times the size,
+/// which decide on that doubt (check_estimate). The recorder gets the summary after them.
+records::Summary simulate_and_check(const scene::Scene& scene, const SimulateOptions& options,
+                                    records::Recorder& recorder, const ProgressCallback& progress);
+
 }  // namespace bough::run

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "bough/run/memory_run.hpp"
 #include "support/scenes.hpp"
 
 namespace bough::run {
@@ -164,6 +165,29 @@ TEST(Verdict, a_motion_with_stops_is_not_called_sensitive) {
       EXPECT_EQ(doubt(run, "error", "sensitive"), "") << all_doubts(run);
       EXPECT_EQ(doubt(run, "error", "altogether"), "") << all_doubts(run);
     }
+}
+
+// Sums of local errors are far above the error where impacts leave errors of both signs. Twins decide then.
+TEST(Verdict, twins_check_a_sum_of_errors_before_it_doubts_a_run) {
+  const auto run = [](const std::string& step) {
+    return run_in_memory(scene_of(bouncing(true, "5"), {"/analysis/step_size=" + step}));
+  };
+  const auto doubts_error = [](const MemoryRun& of) {
+    return std::any_of(of.summary.doubts.begin(), of.summary.doubts.end(),
+                       [](const records::Doubt& d) { return d.about == "error"; });
+  };
+  const MemoryRun right = run("5e-4"), fine = run("5e-5");
+  EXPECT_FALSE(doubts_error(right));
+  EXPECT_TRUE(right.says("twice and four times as long")) << right.text();
+  const auto z = right.series("z.z"), limit = fine.series("z.z");
+  double error = 0.0;
+  for (std::size_t k = 0; k < z.size() && 10 * k < limit.size(); ++k)
+    error = std::max(error, std::abs(z[k] - limit[10 * k]));
+  const auto& told = right.summary.sensor_errors.at(right.column("z.z"));
+  std::printf("bouncing ball: told %.2g m, is off by %.2g m\n", told.of_steps, error);
+  EXPECT_GT(told.of_steps, 0.5 * error);
+  EXPECT_LT(told.of_steps, 0.01 * told.range);
+  EXPECT_TRUE(doubts_error(run("5e-3"))) << "a step an impact";
 }
 
 TEST(Verdict, steady_forced_vibrations_forget_their_errors_and_coarse_ones_are_doubted) {
