@@ -158,7 +158,7 @@ TEST(Twins, what_steps_do_not_resolve_is_not_resolved_and_doubted) {
 }
 
 /// A summary with a doubt of the estimate about one column, and what twins tell of that column.
-records::Summary judged(ErrorState state, double largest) {
+records::Summary judged(ErrorState state, double largest, double spread = 0.1) {
   records::Summary summary;
   summary.doubts = {{estimate_beside_twins, "x is off"}, {"error", "a pulse is missed"}};
   records::SensorError estimated;
@@ -172,6 +172,7 @@ records::Summary judged(ErrorState state, double largest) {
   x.range = 1.0;
   x.time.state = state;
   x.time.largest = largest;
+  x.time.spread = spread;
   judge_errors(errors, {true, false}, summary);
   return summary;
 }
@@ -188,6 +189,7 @@ TEST(Twins, doubts_about_errors_in_time_rest_on_them) {
   EXPECT_EQ(count(wrong, "error"), 2);
   EXPECT_EQ(count(wrong, estimate_beside_twins), 0);
   EXPECT_EQ(count(lost, "error"), 2);
+  EXPECT_EQ(count(judged(ErrorState::not_resolved, 0.005, 0.03), estimate_beside_twins), 0) << "members agree";
   EXPECT_EQ(count(open, estimate_beside_twins), 1) << "what twins do not know is left to the estimate";
   EXPECT_EQ(count(open, "error"), 1);
   EXPECT_EQ(count(none, estimate_beside_twins), 1);
