@@ -9,7 +9,6 @@ namespace bough::plan {
 
 namespace {
 
-constexpr double least_pivot = 1e-9;  ///< relative: rows have lengths of about 1
 /// Largest number of freedoms whose motions are computed by a decomposition.
 constexpr std::size_t most_columns = 300;
 constexpr std::size_t most_parts = 1000;
@@ -17,7 +16,7 @@ constexpr std::size_t most_parts = 1000;
 using Matrix = Eigen::MatrixXd;
 
 /// Basis of the relative twists that the rows of an edge allow: 6 x (6 - rank).
-Matrix freedoms_of(const LinkEdge& edge, const std::vector<Twist>& rows) {
+Matrix freedoms_of(const LinkEdge& edge, const std::vector<Twist>& rows, double least_pivot) {
   if (rows.empty()) return Matrix::Identity(6, 6);
   if (edge.is_beam) return Matrix(6, 0);  // its rows are the unit vectors
   Matrix A(static_cast<Eigen::Index>(rows.size()), 6);
@@ -124,7 +123,7 @@ struct Peeled {
   std::vector<Eigen::Index> rows, columns;
 };
 
-Peeled peel(const Matrix& A) {
+Peeled peel(const Matrix& A, double least_pivot) {
   std::vector<std::vector<Eigen::Index>> rows_of(static_cast<std::size_t>(A.cols()));
   std::vector<int> open(static_cast<std::size_t>(A.rows()), 0);  // free freedoms of a row
   const auto is_entry = [&](Eigen::Index i, Eigen::Index j) { return std::abs(A(i, j)) > least_pivot; };
@@ -158,7 +157,7 @@ Peeled peel(const Matrix& A) {
 
 /// Computes the rank of the rows that close loops, and the remaining motions if they are wanted.
 void find_motions(LinkComponent& c, const SpanningTree& tree, const std::vector<LinkEdge>& edges,
-                  const std::vector<std::pair<int, Twist>>& rows, bool is_wanted) {
+                  const std::vector<std::pair<int, Twist>>& rows, bool is_wanted, double least_pivot) {
   Matrix kernel;
   if (is_wanted) kernel = Matrix::Identity(c.freedoms, c.freedoms);
   if (!rows.empty() && c.freedoms > 0) {
@@ -170,7 +169,7 @@ void find_motions(LinkComponent& c, const SpanningTree& tree, const std::vector<
       add_way(tree, edge.first, rows[i].second, -1.0, line);
       A.row(static_cast<Eigen::Index>(i)) = line;
     }
-    const Peeled left = peel(A);
+    const Peeled left = peel(A, least_pivot);
     if (left.columns.size() > most_columns) {
       c.is_rank_known = false;
       c.rank = std::min(c.freedoms, static_cast<int>(rows.size()));
@@ -248,7 +247,8 @@ std::vector<LinkComponent> Linkage::solve(MotionsOf wanted, int relaxed) const {
       SpanningTree::Step& step = tree.steps[static_cast<std::size_t>(part)];
       step.begin = c.freedoms;
       if (step.edge >= 0)
-        step.basis = freedoms_of(edges_[static_cast<std::size_t>(step.edge)], rows_of(step.edge, relaxed));
+        step.basis =
+            freedoms_of(edges_[static_cast<std::size_t>(step.edge)], rows_of(step.edge, relaxed), least_pivot_);
       else if (is_wanted || c.closing_rows > 0)
         step.basis = Matrix::Identity(6, 6);
       c.freedoms += step.edge >= 0 ? static_cast<int>(step.basis.cols()) : 6;
@@ -257,7 +257,7 @@ std::vector<LinkComponent> Linkage::solve(MotionsOf wanted, int relaxed) const {
     std::vector<std::pair<int, Twist>> rows;
     for (const int e : closing[k])
       for (const Twist& row : rows_of(e, relaxed)) rows.emplace_back(e, row);
-    find_motions(c, tree, edges_, rows, is_wanted);
+    find_motions(c, tree, edges_, rows, is_wanted, least_pivot_);
   }
   return components;
 }

@@ -50,7 +50,8 @@ class Linkage {
  public:
   static constexpr int ground = 0;
 
-  Linkage(Vec3d center, double size) : center_(center), size_(size) {}
+  /// Rows have lengths of about 1, and depend on each other where pivots are below `least_pivot`.
+  Linkage(Vec3d center, double size, double least_pivot) : center_(center), size_(size), least_pivot_(least_pivot) {}
   int add_part() { return num_parts_++; }
   void add(LinkEdge edge) { edges_.push_back(std::move(edge)); }
   void reserve(std::size_t num_edges) { edges_.reserve(num_edges); }
@@ -73,6 +74,7 @@ class Linkage {
 
   Vec3d center_;
   double size_;
+  double least_pivot_;
   int num_parts_ = 1;
   std::vector<LinkEdge> edges_;
 };

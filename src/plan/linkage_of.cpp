@@ -30,7 +30,8 @@ bool has_whole_inertia(const scene::Body& b) {
 
 }  // namespace
 
-Linkage empty_linkage(const scene::Scene& scene, const scene::Poses& poses) {
+Linkage empty_linkage(const scene::Scene& scene, const scene::Poses& poses, double precision) {
+  constexpr double round_off = 1e-9;
   Vec3d low = Vec3d::zero(), high = low;
   bool is_first = true;
   const auto include = [&](const std::optional<Frame>& H) {
@@ -45,7 +46,7 @@ Linkage empty_linkage(const scene::Scene& scene, const scene::Poses& poses) {
   for (const scene::Body& b : scene.bodies) include(poses.of(b.placement));
   for (const scene::Joint& j : scene.joints) include(poses.of(j.second));
   const double size = length_of(high - low);
-  return Linkage(0.5 * (low + high), size > 0.0 ? size : 1.0);
+  return Linkage(0.5 * (low + high), size > 0.0 ? size : 1.0, std::max(round_off, precision));
 }
 
 SceneLinkage::SceneLinkage(const scene::Scene& scene, const scene::Poses& poses, const Linkage& empty,

@@ -34,8 +34,8 @@ struct LinkageChoice {
 };
 
 /// A linkage without parts, with the center and size of the box around all nodes and bodies and the places of all
-/// joints.
-Linkage empty_linkage(const scene::Scene& scene, const scene::Poses& poses);
+/// joints. precision: relative, to which rows of joints are known; rows that depend on each other within it do.
+Linkage empty_linkage(const scene::Scene& scene, const scene::Poses& poses, double precision = 0.0);
 
 /// Signals of places and forces, as indices, on which forces depend that signals drive.
 std::vector<std::size_t> places_read_by_forces(const scene::Scene& scene);

@@ -168,14 +168,27 @@ int Mobility::degrees_of_freedom() const {
   return sum;
 }
 
+/// Rows of joints that close loops depend on each other within the digits of the input, not beyond: what is dependent
+/// but for the last digit is taken so. In a plane this is known already.
+void Builder::take_written_precision() {
+  const bool may_depend =
+      std::any_of(plan.mobility.parts.begin(), plan.mobility.parts.end(),
+                  [](const MobilityPart& p) { return p.closing_rows > (p.is_counted ? p.rank : 0); });
+  if (plan.precision > 0.0 || written_precision == 0.0 || !may_depend || !plan.unknowns.is_whole()) return;
+  plan.precision = written_precision;
+  plan.notes.push_back("places are written with " + std::to_string(written_decimals) +
+                       " decimals: conditions of joints that depend on each other within them count as dependent");
+}
+
 void Builder::find_mobility() {
   Mobility& m = plan.mobility;
-  const Linkage empty = empty_linkage(scene, poses);
+  const Linkage empty = empty_linkage(scene, poses, disagreement_within(written_precision));
   const SceneLinkage rigid(scene, poses, empty, {});
   std::map<std::string, int> drives;
   for (const scene::Joint& j : scene.joints)
     if (!j.drives.empty()) drives[j.name] = static_cast<int>(j.drives.size());
   for (const LinkComponent& c : rigid.linkage.solve(MotionsOf::none)) m.parts.push_back(part_of(rigid, c, drives));
+  take_written_precision();
   if (plan.is_dynamic) {
     m.locked = find_locked(SceneLinkage(scene, poses, empty, {.beams_are_rigid = false}));
     const bool turns = plan.unknowns.motions == Motions::spatial || plan.unknowns.motions == Motions::planar;

@@ -61,6 +61,9 @@ struct Builder {
                                                                ///< axes
   std::vector<std::string> held_at_lines;                      ///< names of these point masses
 
+  double written_precision = 0.0;  ///< relative, of places and directions; 0: they are meant as they stand
+  int written_decimals = 0;
+
   template <class E>
   std::vector<std::string>& owners() {
     return std::get<OwnersOf<ElementArrays>::tag<E>>(owner_lists);
@@ -125,6 +128,7 @@ struct Builder {
   void join_by_signals(Sets& parts) const;
   void say_idle_parts();
   void find_mobility();
+  void take_written_precision();
   void choose_unknowns();
   /// Once it is known in which motions the scene can move.
   void leave_out_rotations_of_points();

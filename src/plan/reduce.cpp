@@ -498,7 +498,7 @@ int decimals_of(double x) {
 /// Relative precision of places and directions if at least six coordinates were written with six to twelve decimals, as
 /// programs write them: four units in the last place, which rounding of a place (.87), of an axis and of a body's
 /// rotation (1.7 each) adds up to. 0: fewer decimals are written by hand, and meant; others are round-off.
-double written_precision(const scene::Scene& scene, double size, int& decimals) {
+double precision_as_written(const scene::Scene& scene, double size, int& decimals) {
   constexpr int fewest = 6, most = 12;
   constexpr int least_count = 6;  // coordinates with so many decimals: those of two points
   decimals = 0;
@@ -522,8 +522,7 @@ double written_precision(const scene::Scene& scene, double size, int& decimals) 
 
 void Builder::choose_unknowns() {
   const Obstacle general = general_obstacle(*this);
-  int decimals = 0;
-  const double precision = written_precision(scene, plan.length_scale, decimals);
+  written_precision = precision_as_written(scene, plan.length_scale, written_decimals);
   Motions before = Motions::spatial;
   const auto settle = [&](const char* name, const char* what, const char* why, const Obstacle& beforehand,
                           const std::vector<Vec3<double>>& directions, auto make) {
@@ -545,7 +544,7 @@ void Builder::choose_unknowns() {
             std::snprintf(text, sizeof text,
                           "places are written with %d decimals: within them, with differences of up to %.2g of "
                           "the structure's size, ",
-                          decimals, motion.largest_difference());
+                          written_decimals, motion.largest_difference());
             plan.notes.push_back(text + std::string(why) + ", and are taken so");
           }
         } else if (tried == 0 || v.passed > furthest) {  // the reason reported is that of the direction that passed
@@ -556,7 +555,7 @@ void Builder::choose_unknowns() {
       }
     };
     look(small);
-    if (precision > small) look(precision);
+    if (written_precision > small) look(written_precision);
     const bool fewer = plan.unknowns.motions != before;
     if (holds && !fewer && !is_barred(name)) reason += "; but fewer unknowns are taken already";
     decide(name, what, fewer, reason);

@@ -304,7 +304,7 @@ void Augmented::multiply(const tree::Walker& walker, const double* x, double* y)
 FactorStatus Augmented::factor(const tree::Walker& walker) {
   State& s = *state_;
   s.status = {};
-  if (s.scales_wanted) s.elements.eval_scales(s.scales, s.buffers.residual);
+  if (s.scales_wanted) s.elements.eval_scales(s.scales, s.buffers.residual, s.options.data_precision);
   s.scales_wanted = false;
   s.dependent.forget();
   ++s.counters.factorizations;

@@ -80,8 +80,9 @@ class ElementStore {
   /// r = b - A x and the backward error of x in scaled variables.
   Errors eval_residual(const tree::Walker& walker, const Scales& scales, const double* x, const double* b, double* r);
 
-  /// Serial, one pass over the element matrices. No allocation. scratch: num_unknowns numbers, overwritten.
-  void eval_scales(Scales& scales, std::vector<double>& scratch) const;
+  /// Serial, one pass over the element matrices. No allocation. scratch: num_unknowns numbers, overwritten. precision:
+  /// SolveOptions::data_precision.
+  void eval_scales(Scales& scales, std::vector<double>& scratch, double precision = 0.0) const;
   void measure_multipliers(Scales& scales) const;
   /// Largest entry of D (A - A^T) D of one element, D the scales of columns; infinity or NaN if A is not finite.
   double asymmetry_of(int element, const Scales& scales) const;
@@ -112,7 +113,7 @@ class ElementStore {
   void prepare();
   enum class Lending { strict, bare };
   bool lend_diagonals(Lending lending, const std::vector<double>& given, std::vector<double>& diagonal) const;
-  void drop_round_off(std::vector<double>& diagonal) const;
+  void drop_round_off(double precision, std::vector<double>& diagonal) const;
   void lift_weak_diagonals(std::vector<double>& given, std::vector<double>& diagonal) const;
   template <class Row>
   void for_rows(std::int64_t begin, std::int64_t end, Row&& row) const;

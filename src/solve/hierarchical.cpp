@@ -101,7 +101,7 @@ FactorStatus Hierarchical::State::factor_all(const tree::Walker& walker, VisitWo
   visit_rhs = rhs;
   if (scales_wanted) {
     if (before) visit_all(walker, std::exchange(before, {}));
-    elements.eval_scales(scales, residual);
+    elements.eval_scales(scales, residual, options.data_precision);
     next_measurement = 0;
     check_all_symmetric();
     if (is_symmetric()) scales.row = scales.column;  // equal except for the order of a sum

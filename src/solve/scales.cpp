@@ -91,19 +91,19 @@ void ElementStore::lift_weak_diagonals(std::vector<double>& given, std::vector<d
 
 /// A diagonal of round-off is none: a scale made from it would be up to 1e8 times too large, and rows that contain its
 /// unknown would seem to depend on each other (rods without inertia about their axes, while they turn).
-void ElementStore::drop_round_off(std::vector<double>& diagonal) const {
-  constexpr double round_off = 2e-15;  // of the largest diagonal of the node
+void ElementStore::drop_round_off(double precision, std::vector<double>& diagonal) const {
+  const double round_off = std::max(2e-15, 16.0 * precision);  // of the largest diagonal of the node
   for (std::int64_t b = 0; b < graph_.num_blocks(); ++b) {
     if (graph_.block_kind[at(b)] != blocks::BlockKind::motion) continue;
     const auto begin = diagonal.begin() + tree_.unknown_begin[at(b)],
                end = diagonal.begin() + tree_.unknown_begin[at(b) + 1];
     const double most = begin == end ? 0.0 : *std::max_element(begin, end);
     std::replace_if(
-        begin, end, [most](double d) { return d < round_off * most; }, 0.0);
+        begin, end, [&](double d) { return d < round_off * most; }, 0.0);
   }
 }
 
-void ElementStore::eval_scales(Scales& s, std::vector<double>& scratch) const {
+void ElementStore::eval_scales(Scales& s, std::vector<double>& scratch, double precision) const {
   const std::size_t n = at(tree_.num_unknowns());
   std::vector<double>& exact_row = s.row;
   std::vector<double>& exact_column = s.column;
@@ -130,7 +130,7 @@ void ElementStore::eval_scales(Scales& s, std::vector<double>& scratch) const {
       }
     }
   }
-  drop_round_off(exact_row);
+  drop_round_off(precision, exact_row);
   s.diagonal = exact_row;
   lift_weak_diagonals(scratch, exact_row);
   s.empty_unknown = -1;

@@ -230,6 +230,10 @@ struct EnergyStore {
   laws::Law supplied;  ///< -U, over q; a formula's values are quadratures to round-off
 };
 
+/// What rows that depend on each other within a precision may disagree by, and given velocities by what they allow: a
+/// loop has some ten joints, each off by the precision.
+constexpr double disagreement_within(double precision) { return 16.0 * precision; }
+
 struct Plan {
   std::string scene_name;
   bool is_dynamic = true;
@@ -280,12 +284,10 @@ struct Plan {
   blocks::BlockGraph graph;
   std::vector<int> block_of_node;  ///< -1: held
   double length_scale = 1.0;       ///< [m], size of the structure
-  /// Relative precision in which places and directions of the scene are written, if its unknowns were chosen within it;
-  /// 0: the scene is taken as it stands.
+  /// Relative precision in which places and directions of the scene are written, if its unknowns were chosen within it,
+  /// or rows of joints may depend on each other within it; 0: the scene is taken as it stands.
   double precision = 0.0;
-  /// What rows that depend on each other within it may disagree by, and given velocities by what they allow: a loop has
-  /// some ten joints, each off by the precision.
-  double disagreement() const { return 16.0 * precision; }
+  double disagreement() const { return disagreement_within(precision); }
   Mobility mobility;
   std::vector<std::string> notes;  ///< choices that the plan made where the scene leaves them open, in words
 
