@@ -53,6 +53,14 @@ void add_errors(CLI::App& verb, std::vector<std::string>& overrides) {
       ->check([](const std::string& text) {
         return text == "time" || text == "mesh" ? std::string() : "'" + text + "' is neither time nor mesh";
       });
+  verb.add_option_function<double>(
+          "--accuracy",
+          [&overrides](double asked) { overrides.push_back("/analysis/accuracy=" + io::rounded_text(asked, 17)); },
+          "Find steps and numbers of elements with which the errors of all sensors, relative to their ranges, are "
+          "below "
+          "this")
+      ->type_name("SHARE")
+      ->check(between(1e-12, 0.5));
 }
 
 void add_memory_limit(CLI::App& verb, double& bytes, const std::string& what) {

@@ -56,7 +56,7 @@ Option end_time() {
 }
 
 Option step_size(Literal about) {
-  return {may("step_size", positive(""), about, "1e-3"), [](const Value& v, Analysis& a) { a.step_size = v.number; }};
+  return {may("step_size", positive(""), about), [](const Value& v, Analysis& a) { a.step_size = v.number; }};
 }
 
 /// What all analyses are asked that solve equations of equilibrium or of motion.
@@ -115,6 +115,31 @@ Option errors(Literal time_about) {
           }};
 }
 
+/// about: what is found that reaches it.
+Option accuracy(Literal about) {
+  const RuleRef relative = number_rule("Of the range of every sensor [-].", 0.0, true, 0.5);
+  Rule rule = object_of(
+      "Of some results, or not relative.",
+      {may("relative", number_rule("", 0.0, true, 0.5), "Of the range of a sensor, or of the size of a measure [-]."),
+       may("absolute", positive(""), "In the unit of what it is of; allowed beside the relative one."),
+       may("of", array_rule("", text_rule(""), 1, 1000),
+           "Names of sensors, of their columns (\"tip.x\") and of measures. Default: all sensors."),
+       may("mesh", boolean_rule(""), "Errors by the numbers of elements count, too.", "true")});
+  return {may("accuracy", choice_rule("Largest error of results.", {relative, made(std::move(rule))}), about),
+          [](const Value& v, Analysis& a) {
+            scene::Accuracy& asked = a.accuracy.emplace();
+            if (v.is(JsonKind::number)) {
+              asked.relative = v.number;
+              return;
+            }
+            take_number_of(v, "relative", asked.relative);
+            take_number_of(v, "absolute", asked.absolute);
+            if (const Value* of = v.find("of"))
+              for (const Value& name : of->items) asked.of.push_back(name.text.str());
+            asked.mesh = v.find("mesh")->truth;
+          }};
+}
+
 Option step_control() {
   Rule rule = object_of("Step sizes chosen from the local error of each step (generalized_alpha).",
                         {may("tolerance", number_rule("", 0.0, true, 0.1),
@@ -141,14 +166,17 @@ Option step_control() {
 }
 
 std::vector<Option> static_options() {
-  return {{may("load_steps", integer_rule("", 1, 1e6), "Steps of the load factor from 0 to 1.", "1"),
-           [](const Value& v, Analysis& a) { a.load_steps = whole(v); }},
-          arc_length(),
-          {may("unstable", boolean_rule(""),
-               "Unstable equilibria are what is looked for: the run is not doubted because of them.", "false"),
-           [](const Value& v, Analysis& a) { a.unstable = v.truth; }},
-          errors("A twin with twice as many load steps: equilibria do not depend on them, unless a step leads to "
-                 "another one.")};
+  return {
+      {may("load_steps", integer_rule("", 1, 1e6), "Steps of the load factor from 0 to 1.", "1"),
+       [](const Value& v, Analysis& a) { a.load_steps = whole(v); }},
+      arc_length(),
+      {may("unstable", boolean_rule(""),
+           "Unstable equilibria are what is looked for: the run is not doubted because of them.", "false"),
+       [](const Value& v, Analysis& a) { a.unstable = v.truth; }},
+      errors("A twin with twice as many load steps: equilibria do not depend on them, unless a step leads to "
+             "another one."),
+      accuracy("Largest error that results may have by the mesh: numbers of elements are multiplied until it is met. "
+               "Default: the mesh is that of the scene.")};
 }
 
 std::vector<Option> dynamic_options() {
@@ -161,7 +189,7 @@ std::vector<Option> dynamic_options() {
            "velocities are added to it.",
            "\"given\""),
        [](const Value& v, Analysis& a) { a.start = static_cast<scene::StartKind>(kind_of_word(start_words, v)); }},
-      step_size("h [s]."),
+      step_size("h [s]. Default: 1e-3, or with `accuracy` a 256th of the end time."),
       {may("integrator", rule_of_words(integrator_words),
            "generalized_alpha: second order; damps what is faster than the step. variational: keeps the momentum of "
            "what floats freely to round-off, and energy within a bound where the step resolves the fastest vibration; "
@@ -186,7 +214,10 @@ std::vector<Option> dynamic_options() {
            "0.3"),
        [](const Value& v, Analysis& a) { a.newmark_beta = v.number; }},
       step_control(),
-      errors("Twins with steps of twice and four times the size.")};
+      errors("Twins with steps of twice and four times the size."),
+      accuracy("Largest error that results may have: a step size is found that meets it, and numbers of elements are "
+               "multiplied until they do. step_size and these numbers are those of the first "
+               "trial. Default: steps and mesh are those of the scene.")};
 }
 
 std::vector<Option> joined(std::vector<Option> options, const std::vector<Option>& further) {
@@ -207,7 +238,7 @@ const std::vector<KindOptions>& kinds() {
        "at given times: nothing is integrated. Refused where a part can still move, bend or follow a state.",
        {end_time(),
         step_size("Distance h of the times 0, h, 2 h, ... at which the motion is evaluated, besides those of expected "
-                  "figures; no result depends on it [s]."),
+                  "figures; no result depends on it [s]. Default: 1e-3."),
         max_cuts("Halvings of the way between two times where parts move far."),
         errors("There are none: nothing is integrated.")}}};
   return list;
@@ -233,6 +264,9 @@ void read_analysis(const Value& v, Analysis& analysis) {
     if (k.kind == analysis.kind)
       for (const Option& o : k.options)
         if (const Value* given = v.find(o.field.key.data())) o.read(*given, analysis);
+  constexpr double first_steps = 256.0;
+  if (analysis.accuracy && v.find("step_size") == nullptr && analysis.end_time > 0.0)
+    analysis.step_size = analysis.end_time / first_steps;
 }
 
 }  // namespace bough::io

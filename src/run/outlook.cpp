@@ -176,6 +176,10 @@ Outlook look_ahead(const scene::Scene& scene) {
   for (const OutlookTwin& t : out.twins) out.process_bytes += static_cast<std::int64_t>(t.memory_bytes);
   out.mobility = plan.mobility;
   out.notes = plan.notes;
+  if (scene.analysis.accuracy)
+    out.notes.emplace_back(
+        "steps and meshes that meet the accuracy are found by trials: what is told here is that of the first one, "
+        "without its twins");
   for (const plan::Decision& d : plan.decisions) {
     OutlookDecision o{d, d.taken && d.can_be_barred, {}};
     if (o.has_saving) {

@@ -1,5 +1,6 @@
 #include "bough/run/simulate.hpp"
 
+#include "accuracy.hpp"
 #include "bough/run/estimate.hpp"
 #include "bough/run/simulation.hpp"
 #include "bough/scene/analysis_kinds.hpp"
@@ -22,6 +23,7 @@ bool can_check(const scene::Scene& scene) {
 
 records::Summary simulate(const scene::Scene& scene, const SimulateOptions& options, records::Recorder& recorder,
                           const ProgressCallback& progress) {
+  if (scene.analysis.accuracy) return simulate_to_accuracy(scene, options, recorder, progress);
   if (scene.analysis.errors.any()) return simulate_with_twins(scene, options, recorder, progress);
   if (options.checks_estimate && can_check(scene)) return simulate_and_check(scene, options, recorder, progress);
   SimulateOptions alone = options;

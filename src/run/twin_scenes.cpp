@@ -74,16 +74,6 @@ int halvings_of(const scene::Scene& scene) {
   return halvings;
 }
 
-scene::Scene with_elements(const scene::Scene& scene, double factor) {
-  const auto times = [factor](int number) { return static_cast<int>(std::lround(number * factor)); };
-  scene::Scene other = scene;
-  for (scene::Beam& b : other.beams) b.elements = times(b.elements);
-  for_each_place(other, [&times](std::string& name) {
-    if (const int k = inner_node(name); k >= 0) name = name.substr(0, name.rfind('.') + 1) + std::to_string(times(k));
-  });
-  return other;
-}
-
 /// Values are recorded at the times at which twins are compared: in dynamics samples at given times, else all rows.
 scene::Scene plain(scene::Scene scene) {
   constexpr int no_rows = 1 << 30;
@@ -132,6 +122,16 @@ void add_of_mesh(const scene::Scene& scene, Twins& twins) {
 }
 
 }  // namespace
+
+scene::Scene with_elements(const scene::Scene& scene, double factor) {
+  const auto times = [factor](int number) { return static_cast<int>(std::lround(number * factor)); };
+  scene::Scene other = scene;
+  for (scene::Beam& b : other.beams) b.elements = times(b.elements);
+  for_each_place(other, [&times](std::string& name) {
+    if (const int k = inner_node(name); k >= 0) name = name.substr(0, name.rfind('.') + 1) + std::to_string(times(k));
+  });
+  return other;
+}
 
 scene::ErrorsWanted errors_of(const scene::Scene& scene) {
   const scene::AnalysisType& kind = scene::type_of(scene.analysis.kind);

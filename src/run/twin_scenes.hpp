@@ -21,6 +21,9 @@ scene::ErrorsWanted errors_of(const scene::Scene& scene);
 /// "steps 2 times as long", "0.5 times as many elements".
 std::string text_of(const Twin& twin);
 
+/// The same scene with all numbers of elements times a factor; inner nodes that it names stay where they are.
+scene::Scene with_elements(const scene::Scene& scene, double factor);
+
 struct Twins {
   std::vector<Twin> members;
   std::vector<std::string> remarks;  ///< why there are none of a kind, in words

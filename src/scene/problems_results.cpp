@@ -284,6 +284,28 @@ void check_start(ProblemList& list) {
   }
 }
 
+void check_accuracy(ProblemList& list) {
+  const Scene& s = list.scene;
+  if (!s.analysis.accuracy) return;
+  const Accuracy& a = *s.analysis.accuracy;
+  if (!(a.relative > 0.0) && !(a.absolute > 0.0))
+    list.add("analysis", 0, "accuracy", "", "it asks for nothing", "give relative or absolute");
+  std::vector<std::string> known;
+  for (const Sensor& sensor : s.sensors) known.push_back(sensor.name);
+  for (const Measure& measure : s.measures) known.push_back(measure.name);
+  if (known.empty()) list.add("analysis", 0, "accuracy", "", "there is no sensor whose error it could be");
+  for (std::size_t k = 0; k < a.of.size(); ++k) {
+    const std::string& name = a.of[k];
+    const auto is_known = [&](const std::string& of) {
+      return std::find(known.begin(), known.end(), of) != known.end();
+    };
+    if (is_known(name) || is_known(name.substr(0, name.rfind('.')))) continue;
+    const std::string near = nearest_name(name, known);
+    list.add("analysis", 0, "accuracy/of/" + std::to_string(k), name, "no sensor, column or measure has this name",
+             near.empty() ? "" : "did you mean '" + near + "'?");
+  }
+}
+
 }  // namespace
 
 void check_analysis(ProblemList& list) {
@@ -298,6 +320,10 @@ void check_analysis(ProblemList& list) {
       std::any_of(s.frames.begin(), s.frames.end(), [](const FrameDef& f) { return f.motion.has_value(); }))
     list.add("analysis", 0, "arc_length", "", "paths by arc length do not know frames that move",
              "inertial loads grow with the square of the speed and have no negative factor: take load_steps");
+  check_accuracy(list);
+  if (a.arc_length && a.accuracy)
+    list.add("analysis", 0, "accuracy", "", "the steps along a path are free, so that paths cannot be compared",
+             "leave out accuracy or arc_length");
   if (!list.is_dynamic) return;  // no dynamics, or the analysis itself is at fault
   check_start(list);
   if (!(a.end_time > 0.0)) list.add("analysis", 0, "end_time", text_of(a.end_time), "has to be above 0");
@@ -329,6 +355,9 @@ void check_analysis(ProblemList& list) {
   if (a.step_control && a.errors.any())
     list.add("analysis", 0, "errors", "", "twins are compared with runs of equal steps, at equal times",
              "leave out errors or step_control");
+  if (a.step_control && a.accuracy)
+    list.add("analysis", 0, "accuracy", "", "it is reached by steps of equal size",
+             "leave out accuracy or step_control");
   const auto frame_moves = [](const FrameDef& f) { return f.motion.has_value(); };
   if (is_variational && std::any_of(s.frames.begin(), s.frames.end(), frame_moves))
     list.add("analysis", 0, "integrator", "variational", "the variational integrator does not know frames that move",

@@ -57,6 +57,7 @@ enum class NullSide { right, left };
 /// A node's share of constraint forces up to which they cancel, and the share of the largest forces below which they
 /// do not count: see forces_cancel().
 constexpr double passing_force = 3e-2, insignificant_force = 1e-3;
+constexpr double units_of_precision = 1024.0;  ///< of the data, up to which forces cancel: the sum of many entries
 
 /// Dependent rows, and what follows from them: those that the root has found by singular values, and those decided in
 /// fronts.

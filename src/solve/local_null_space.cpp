@@ -206,7 +206,6 @@ bool Hierarchical::State::are_dependent_rows(int count) {
   for (const tree::FrontId f : s.passed)
     for (int p = front(f).element_begin; p < front(f).element_end; ++p)
       add_constraint_forces(tree.element_order[at(p)], count);
-  constexpr double units = 1024.0;  // of the data's precision: the sum of many entries
   std::array<double, most> largest{};
   const std::span<const double> forces = s.forces.values();
   for (std::size_t k = 0; k < s.forces.unknowns().size(); ++k)
@@ -215,7 +214,8 @@ bool Hierarchical::State::are_dependent_rows(int count) {
     for (std::size_t v = 0; v < at(count); ++v) {
       const double sum = forces[k * 2 * most + v], magnitude = forces[k * 2 * most + most + v];
       if (!(std::abs(sum) <= passing_force * std::max(magnitude, insignificant_force * largest[v]))) return false;
-      if (options.data_precision > 0.0 && !(std::abs(sum) <= units * options.data_precision * largest[v])) return false;
+      if (options.data_precision > 0.0 && !(std::abs(sum) <= units_of_precision * options.data_precision * largest[v]))
+        return false;
     }
   return true;
 }

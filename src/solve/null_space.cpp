@@ -27,8 +27,9 @@ void orthonormalise(std::vector<double>& vectors, int count, const Eigen::Vector
 /// not, although in scaled variables, in which the light body moves much, the singular value is only the ratio of the
 /// masses. A thirtieth of the forces at a node is tolerated, and 3e-5 of the largest, for loops that are still open by
 /// 1e-5, as rank_tolerance allows.
+/// precision: of the data; forces then cancel to it, relative to the largest.
 bool forces_cancel(const ElementStore& elements, const tree::Tree& tree, const bool* is_constraint,
-                   const std::vector<double>& column_scale, const double* z) {
+                   const std::vector<double>& column_scale, double precision, const double* z) {
   std::vector<double> sum(at(tree.num_unknowns()), 0.0), magnitude(sum.size(), 0.0);
   std::vector<std::size_t> unknowns;
   for (const int e : tree.element_order) {
@@ -53,8 +54,10 @@ bool forces_cancel(const ElementStore& elements, const tree::Tree& tree, const b
     }
   }
   const double most = *std::max_element(magnitude.begin(), magnitude.end());
-  for (std::size_t i = 0; i < sum.size(); ++i)
+  for (std::size_t i = 0; i < sum.size(); ++i) {
     if (!(std::abs(sum[i]) <= passing_force * std::max(magnitude[i], insignificant_force * most))) return false;
+    if (precision > 0.0 && !(std::abs(sum[i]) <= units_of_precision * precision * most)) return false;
+  }
   return true;
 }
 
@@ -156,23 +159,23 @@ void Hierarchical::State::decide_rank() {
     return std::sqrt(sum);
   };
   const auto cancels = [&](const Eigen::VectorXd& z) {
-    return forces_cancel(elements, tree, is_constraint.get(), scales.column, z.data());
+    return forces_cancel(elements, tree, is_constraint.get(), scales.column, options.data_precision, z.data());
   };
   const auto all_cancel = [&] {
     for (int j = 0; j < m; ++j)
       if (!cancels(basis.col(j))) return false;
     return true;
   };
+  const double tolerance = std::max(options.rank_tolerance, uncertain_entry());
   int dependent = 0;
-  if (core.norm() <= options.rank_tolerance && motion_share(basis) <= options.null_motion_tolerance && all_cancel()) {
+  if (core.norm() <= tolerance && motion_share(basis) <= options.null_motion_tolerance && all_cancel()) {
     dependent = m;  // the usual case: only dependent constraint rows
   } else {
     const RightSingularVectors singular = right_singular_vectors(core);
     for (int j = 0; j < m; ++j) {
       const Eigen::VectorXd z = basis * singular.vectors.col(j);
       const bool is_of_constraints = motion_share(z) <= options.null_motion_tolerance && cancels(z);
-      if (!(singular.values(j) > (is_of_constraints ? options.rank_tolerance : options.singular_tolerance)))
-        ++dependent;
+      if (!(singular.values(j) > (is_of_constraints ? tolerance : options.singular_tolerance))) ++dependent;
     }
   }
   if (dependent == m) return;

@@ -349,6 +349,15 @@ struct ErrorsWanted {
   bool any() const { return time || mesh; }
 };
 
+/// Errors that results may have, given instead of a step size and of numbers of elements: the run finds those that
+/// reach them.
+struct Accuracy {
+  double relative = 0.0;        ///< of the range of a sensor, or of the magnitude of a measure [-]
+  double absolute = 0.0;        ///< in the unit of what it is of; allowed beside the relative one
+  std::vector<std::string> of;  ///< names of sensors, of their columns and of measures; empty: all sensors
+  bool mesh = true;             ///< errors by the numbers of elements count, too
+};
+
 /// Where dynamics begins: in the poses that the scene gives, or in the equilibrium under the loads of t = 0.
 enum class StartKind : std::uint8_t { given, equilibrium };
 
@@ -377,6 +386,7 @@ struct Analysis {
   int max_iterations = 20;
   int max_cuts = 10;  ///< halvings of a step before the run fails
   ErrorsWanted errors;
+  std::optional<Accuracy> accuracy;  ///< step_size and numbers of elements are then those of a first trial
 };
 
 /// How the linear system is solved along the tree of sub-domains, or as a whole.
