@@ -22,7 +22,9 @@ using records::RunStatus;
 namespace {
 
 constexpr int most_trials = 12;
-constexpr double margin = 0.7;        ///< part of the allowed error that is aimed at: predictions are that good
+constexpr int most_unresolved =
+    3;                          ///< trials whose errors have no order: shorter steps will not help, or cost too much
+constexpr double margin = 0.7;  ///< part of the allowed error that is aimed at: predictions are that good
 constexpr double foreseen = 1.0 / 8;  ///< shortest step, over that of a trial, which its errors foretell
 constexpr double shortest = 1.0 / 16;
 constexpr double most_steps = 1e7;
@@ -65,9 +67,12 @@ class Judge {
   }
   /// allowed: by all kinds of errors together.
   void see(Need& need, const ErrorOf& e, const ErrorPart& part, double allowed) const {
+    constexpr double noise = 100.0;     // roundings in the range of what is a number
     constexpr double agreement = 0.25;  // members that differ by less agree, whatever their order (error_doubts.cpp)
     allowed *= part_;
-    if (part.state == ErrorState::not_measured || !(allowed > 0.0)) return;
+    // A column that is zero but for round-off has a range of that size.
+    const bool is_noise = part.state == ErrorState::round_off && e.range <= noise * part.largest && e.range > 0.0;
+    if (part.state == ErrorState::not_measured || !(allowed > 0.0) || is_noise) return;
     const bool agrees = part.state == ErrorState::not_resolved && part.spread <= agreement * allowed;
     const double share = part.largest / allowed;
     if (share > need.share || (need.is_known && !part.is_known() && !agrees)) {
@@ -127,7 +132,6 @@ class Search {
     }
     if (is_trial) {
       scene.output.motion = false;
-      scene.output.checks = false;
       scene.output.checkpoint = 0.0;
     }
     return scene;
@@ -151,6 +155,8 @@ class Search {
     }
     const Need time = judge_.need(*found.errors, &ErrorOf::time), mesh = judge_.need(*found.errors, &ErrorOf::mesh);
     bool goes_on = false;
+    if (!time.is_known || !mesh.is_known) ++unresolved_;
+    if (unresolved_ > most_unresolved) return false;
     if (is_in_time_ && !time.is_met()) {
       const double shrink = time.is_known ? 1.0 / time.factor : 1.0 / unknown;
       // A trial nearer to what is needed foretells it better.
@@ -249,7 +255,7 @@ class Search {
     if (has_mesh_) add(judge_.need(*summary.errors, &ErrorOf::mesh), "the error of the mesh");
     if (is_met)
       summary.notes.push_back("the accuracy that was asked for is met by " + chosen() +
-                              (text.empty() ? "" : ": " + text + " for its kind"));
+                              (text.empty() ? "" : ": " + text));
     else
       summary.doubts.push_back({"accuracy", "the accuracy that was asked for is not met by " + chosen() + ": " + text});
   }
@@ -262,6 +268,7 @@ class Search {
   bool is_in_time_, has_mesh_;
   Judge judge_;
   double step_, elements_ = 1.0;  ///< step size [s] and factor of all numbers of elements of the next trial
+  int unresolved_ = 0;            ///< trials so far whose errors have no order
   double foretold_ = 0.0;         ///< the step that the accuracy takes [s]; 0: not known
 };
 
