@@ -15,6 +15,7 @@
 
 #include "bough/io/atomic_file.hpp"
 #include "bough/io/run_directory.hpp"
+#include "bough/records/errors.hpp"
 #include "cases/case_report.hpp"
 #include "io/write_samples.hpp"
 #include "support/batch_texts.hpp"
@@ -127,6 +128,30 @@ TEST_F(Batch, rows_do_not_depend_on_the_order_in_which_cases_are_started) {
     turned.order = order;
     EXPECT_EQ(batch_csv(run(turned)), table);
   }
+}
+
+TEST_F(Batch, rows_have_the_errors_of_measures_that_twins_know) {
+  records::Summary summary;
+  summary.measures = {{"top", 2.0}, {"low", 1.0}};
+  records::MeasuredErrors errors;
+  for (const auto& m : summary.measures) errors.measures.emplace_back().name = m.name;
+  records::ErrorOf &top = errors.measures[0], &low = errors.measures[1];
+  top.unit = "m";
+  top.time.state = records::ErrorState::resolved;
+  top.time.largest = 0.25;
+  top.mesh.state = records::ErrorState::unexamined;
+  top.mesh.largest = 0.5;
+  low.time.state = records::ErrorState::not_resolved;
+  low.time.largest = 0.1;
+  summary.errors = std::make_shared<records::MeasuredErrors>(errors);
+  CaseReport report;
+  report.take(summary, {});
+  ASSERT_EQ(report.measures.size(), 4U);
+  EXPECT_EQ(report.measures[2].name, "top.error");
+  EXPECT_EQ(report.measures[2].value, 0.75);
+  EXPECT_EQ(report.units[2], "m");
+  EXPECT_EQ(report.measures[3].name, "low.error");
+  EXPECT_FALSE(report.measures[3].value) << "it is not resolved";
 }
 
 TEST_F(Batch, tables_hold_inputs_and_measures_and_no_formula_of_a_spreadsheet) {

@@ -39,6 +39,10 @@ enum class CaseStatus : std::uint8_t { ok, figures_fail, failed, interrupted, ba
 std::string_view text_of(CaseStatus status);
 
 /// Report of a case at its end. It is passed from the process of the case to the process that collects results.
+/// Ending of the names of columns that hold the errors of measures, where twins measure them; no name of a measure has a
+/// dot.
+inline constexpr std::string_view error_ending = ".error";
+
 struct CaseReport {
   std::string cause;                ///< what to report
   std::filesystem::path directory;  ///< directory of its results; empty: it left none, or they are stored

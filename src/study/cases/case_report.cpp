@@ -6,6 +6,7 @@
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
 #include "bough/io/number_text.hpp"
+#include "bough/records/errors.hpp"
 #include "bough/run/measures.hpp"
 
 namespace bough::study {
@@ -24,6 +25,17 @@ std::string failing_figures(const records::Summary& summary) {
   }
   if (count > shown) text += " and " + std::to_string(count - shown) + " more";
   return text;
+}
+
+/// The error of a measure in time and by the mesh, as far as twins measure them; nothing where one is not known.
+std::optional<double> error_of(const records::ErrorOf& measure) {
+  double error = 0.0;
+  for (const records::ErrorPart* part : {&measure.time, &measure.mesh}) {
+    if (part->state == records::ErrorState::not_measured) continue;
+    if (!part->is_known()) return std::nullopt;
+    error += part->largest;
+  }
+  return error;
 }
 
 }  // namespace
@@ -45,6 +57,12 @@ void CaseReport::take(const records::Summary& summary, const scene::Scene& scene
   indicators.clear();
   for (std::size_t k = 0; k < scene.measures.size(); ++k)
     if (run::is_indicator(scene.measures[k])) indicators.push_back(k);
+  units.resize(measures.size());
+  for (std::size_t k = 0; summary.errors && k < summary.errors->measures.size(); ++k) {
+    const records::ErrorOf& of = summary.errors->measures[k];
+    measures.push_back({of.name + std::string(error_ending), error_of(of)});
+    units.push_back(of.unit);
+  }
   const records::Checks& checks = summary.checks;
   energy_error = constraint_error = std::nullopt;
   if (checks.evaluated && checks.energy_scale > 0.0) energy_error = checks.energy_balance / checks.energy_scale;

@@ -216,6 +216,7 @@ std::vector<MeasureSensitivity> sensitivities_of(const io::SweepSpec& spec, cons
     row_of.push_back(std::stoul(results.cases().at(i).name) - 1);  // the name of a case is its number
   std::vector<MeasureSensitivity> all;
   for (const CaseTable::Measure& measure : results.measures()) {
+    if (measure.name.ends_with(error_ending)) continue;
     const std::vector<std::optional<double>> of_cases = results.values_of(measure.name);
     std::vector<std::optional<double>> values(num_rows);
     for (std::size_t i = 0; i < of_cases.size(); ++i) values.at(row_of[i]) = of_cases[i];
