@@ -157,8 +157,10 @@ void add_joints(RuleTable& t) {
             "What it joins. A bare name takes the place the other one, or `position`, says."),
        need("second", named_rule("attachment"), "What it joins to the first."),
        may("position", named_rule("vector"),
-           "Place of the joint at the start, in `frame` [m]. Default: from the attachments; with two "
-           "bare names, the origin of the second, unless that is the ground."),
+           "Place of the joint at the start, in `frame` [m]. Default: from the attachments; with two bare names their "
+           "common origin, and where one of them is the ground the origin of the other: a body hinged there turns "
+           "about "
+           "its own origin."),
        may("axis", named_rule("vector"),
            "Axis 3 of the joint's frames at the start, in `frame` (universal: axis 1, fixed in the first)."),
        may("second_axis", named_rule("vector"),
