@@ -29,13 +29,16 @@ struct Words {
 };
 constexpr Words in_time{"in time", "take smaller steps"}, of_mesh{"of the mesh", "take more elements"};
 
-/// A run that differs from its next twin by no more than this part of the bound, which differs from the one after it by
-/// no more than the bound, is right to the bound whatever the order of the errors: where they are of first order, the
-/// error is that difference, and of order 1/2 it is 2.4 times that.
-constexpr double agreement = 0.25;
-
+/// Whether a run is right to a bound though its twins do not differ as errors of the theoretical order do at all times. A
+/// run that differs from its next twin by d, which differs from the one after it by D, has the error d / (D/d - 1) if the
+/// largest differences shrink as they do; twice that is allowed for, and D/d no more than second order gives. Where d is
+/// small beside the bound the order does not matter: of first order the error is d, and of order 1/2 it is 2.4 d.
 bool agrees(const ErrorPart& part, double bound) {
-  return part.state == ErrorState::not_resolved && part.largest <= agreement * bound && part.spread <= bound;
+  constexpr double small = 0.25, most_ratio = 4.0, least_ratio = 2.0, safety = 2.0;
+  if (part.state != ErrorState::not_resolved) return false;
+  if (part.largest <= small * bound && part.spread <= bound) return true;
+  const double ratio = part.largest > 0.0 ? std::min(part.spread / part.largest, most_ratio) : 0.0;
+  return ratio >= least_ratio && safety * part.largest <= (ratio - 1.0) * bound;
 }
 bool is_told(const ErrorPart& part, double bound) {
   return part.is_known() || agrees(part, bound) || (part.state == ErrorState::not_resolved && part.largest > bound);

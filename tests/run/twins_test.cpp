@@ -182,7 +182,8 @@ TEST(Twins, doubts_about_errors_in_time_rest_on_them) {
     return std::count_if(s.doubts.begin(), s.doubts.end(), [&](const auto& d) { return d.about == about; });
   };
   const records::Summary good = judged(ErrorState::resolved, 0.01), wrong = judged(ErrorState::resolved, 0.1),
-                         lost = judged(ErrorState::not_resolved, 0.1), open = judged(ErrorState::not_resolved, 0.01),
+                         lost = judged(ErrorState::not_resolved, 0.1),
+                         open = judged(ErrorState::not_resolved, 0.03, 0.03),
                          none = judged(ErrorState::not_measured, 0.0);
   EXPECT_EQ(count(good, estimate_beside_twins), 0);
   EXPECT_EQ(count(good, "error"), 1) << "doubts of another origin stay";
@@ -190,6 +191,8 @@ TEST(Twins, doubts_about_errors_in_time_rest_on_them) {
   EXPECT_EQ(count(wrong, estimate_beside_twins), 0);
   EXPECT_EQ(count(lost, "error"), 2);
   EXPECT_EQ(count(judged(ErrorState::not_resolved, 0.005, 0.03), estimate_beside_twins), 0) << "members agree";
+  EXPECT_EQ(count(judged(ErrorState::not_resolved, 0.03, 0.12), estimate_beside_twins), 0)
+      << "and shrink as they should";
   EXPECT_EQ(count(open, estimate_beside_twins), 1) << "what twins do not know is left to the estimate";
   EXPECT_EQ(count(open, "error"), 1);
   EXPECT_EQ(count(none, estimate_beside_twins), 1);
