@@ -98,7 +98,12 @@ int view(const ViewArguments& given) {
   std::cout << page.string() << "\n";
   if (!arguments.svg.empty()) {
     options.num_positions = arguments.positions > 0 ? arguments.positions : 9;
-    write_page(arguments.svg, report::standalone_svg(report::make_picture(files.motion, options), files.name));
+    const bool is_of_modes = report::is_of_modes(files);
+    const int mode = 1 + static_cast<int>(arguments.time.value_or(0.0));
+    write_page(arguments.svg,
+               report::standalone_svg(
+                   report::make_picture(is_of_modes ? report::frames_of_mode(files, mode) : files.motion, options),
+                   files.name));
     std::cout << arguments.svg.string() << "\n";
   }
   if (!arguments.png.empty()) {

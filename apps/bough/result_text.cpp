@@ -80,6 +80,26 @@ std::string expected_text(const std::vector<records::ExpectedResult>& expected) 
   return table_text(rows);
 }
 
+/// The columns of a table for which a terminal has room.
+std::string results_text(const records::Table& table) {
+  std::vector<std::vector<std::string>> rows(1);
+  for (const records::Table::Column& column : table.columns)
+    if (column.is_brief)
+      rows[0].push_back((rows[0].empty() ? "  " : "") +
+                        (column.unit.empty() ? column.name : column.name + " [" + column.unit + "]"));
+  for (const auto& row : table.rows) {
+    std::vector<std::string> cells;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      if (!table.columns[c].is_brief) continue;
+      const double* number = std::get_if<double>(&row[c]);
+      cells.push_back((cells.empty() ? "  " : "") +
+                      (number != nullptr ? rounded_text(*number, 7) : std::get<std::string>(row[c])));
+    }
+    rows.push_back(std::move(cells));
+  }
+  return "  " + table.about + "\n" + table_text(rows);
+}
+
 }  // namespace
 
 std::string table_text(const std::vector<std::vector<std::string>>& rows) {
@@ -133,6 +153,7 @@ std::string result_text(const records::Summary& summary, const std::string& dire
       rows.push_back({"  " + m.name, m.value ? rounded_text(*m.value, 9) : "none"});
     text += table_text(rows);
   }
+  for (const records::Table& table : summary.tables) text += results_text(table);
   if (summary.errors) text += errors_text(*summary.errors);
   text += "  results in " + directory + ":";
   for (const std::string& file : files) text += " " + file;

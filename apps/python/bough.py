@@ -67,6 +67,19 @@ class Run:
         return self.status == "ok" and not self.doubts
 
     @property
+    def tables(self):
+        """Results that are no history, {table: {column: array}}: tables["modes"]["frequency"] [Hz]. Numbers are arrays of one
+        value a row, texts lists; what a table shows stands in summary["tables"][table]["about"], with the units."""
+        tables = {}
+        for name, table in self.summary.get("tables", {}).items():
+            tables[name] = {}
+            for column in (c["name"] for c in table["columns"]):
+                cells = [row[column] for row in table["rows"]]
+                is_text = any(isinstance(cell, str) and cell not in ("nan", "inf", "-inf") for cell in cells)
+                tables[name][column] = cells if is_text else numpy.array(cells, dtype=float)
+        return tables
+
+    @property
     def errors(self):
         """Measured errors of the columns, {column: {"extrapolated": ..., "error_in_time": ..., "error_of_mesh": ...}} with
         arrays of one value a row, limit minus value and NaN where it is not known; {} where none were measured. What is

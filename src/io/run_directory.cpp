@@ -10,6 +10,7 @@
 #include "bough/io/unfinished_run.hpp"
 #include "checkpoint_file.hpp"
 #include "measured_errors.hpp"
+#include "result_tables.hpp"
 
 namespace bough::io {
 namespace {
@@ -22,9 +23,13 @@ constexpr bool has_vtk = true;
 constexpr bool has_vtk = false;  // the code below it is not compiled, since vtu_text is not available
 #endif
 
-const std::vector<std::string> all_names = {"history.csv",  "history.npy",  "columns.json",   "errors.csv",
-                                            "motion.bin",   "motion.pvd",   "motion/frame_*", "states.bin",
-                                            "summary.json", "checkpoint.*", "progress.json"};
+const std::vector<std::string> all_names = [] {
+  std::vector<std::string> names = {"history.csv",  "history.npy",  "columns.json",   "errors.csv",
+                                    "motion.bin",   "motion.pvd",   "motion/frame_*", "states.bin",
+                                    "summary.json", "checkpoint.*", "progress.json"};
+  names.insert(names.end(), table_files.begin(), table_files.end());
+  return names;
+}();
 
 std::string frame_name(std::size_t number) {
   std::string digits = std::to_string(number);
@@ -308,12 +313,11 @@ std::exception_ptr RunDirectory::commit_files() {
   return failure;
 }
 
-std::exception_ptr RunDirectory::commit_errors(const records::MeasuredErrors& errors) {
+std::exception_ptr RunDirectory::commit_text(const std::string& name, const std::string& text) {
   try {
-    const std::string text = errors_csv(errors);
-    write_file(folder_->staging() / "errors.csv", text, Durability::soon);
-    list({"errors.csv", text.size(), digest_of(text)});
-    files_.emplace_back("errors.csv");
+    write_file(folder_->staging() / name, text, Durability::soon);
+    list({name, text.size(), digest_of(text)});
+    files_.push_back(name);
   } catch (...) {
     return std::current_exception();
   }
@@ -325,7 +329,9 @@ void RunDirectory::end(const records::Summary& summary) {
   has_ended_ = true;
   if (summary.errors) columns_ = columns_text(summary.header, &summary.errors->header);
   std::exception_ptr failure = commit_files();
-  if (summary.errors && !failure) failure = commit_errors(*summary.errors);
+  if (summary.errors && !failure) failure = commit_text("errors.csv", errors_csv(*summary.errors));
+  for (const records::Table& table : summary.tables)
+    if (!failure) failure = commit_text(file_of(table), table_csv(table));
   if (!failure) {  // otherwise there is no summary, since the directory is incomplete
     try {
       folder_->write_index("summary.json", summary_text(summary, version_, origin_, records_));

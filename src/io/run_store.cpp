@@ -16,6 +16,7 @@
 #include "bough/io/json_text.hpp"
 #include "bough/io/json_value.hpp"
 #include "bough/io/output_folder.hpp"
+#include "result_tables.hpp"
 
 namespace bough::io {
 namespace {
@@ -175,6 +176,7 @@ void RunInMemory::end(const records::Summary& summary) {
   files_.push_back({"history.csv", std::move(history_)});
   files_.push_back({"columns.json", std::move(columns_)});
   if (!motion_.empty()) files_.push_back({"motion.bin", std::move(motion_)});
+  for (const records::Table& table : summary.tables) files_.push_back({file_of(table), table_csv(table)});
   std::vector<FileRecord> records;
   for (const StoredFile& file : files_) records.push_back({file.name, file.text.size(), digest_of(file.text)});
   files_.push_back({"summary.json", summary_text(summary, version_, origin_, records)});

@@ -43,7 +43,7 @@ RuleRef rule_of_words(const std::array<const char*, N>& words) {
   return word_rule("", {words.begin(), words.end()});
 }
 constexpr std::array newton_words{"full", "single"};
-constexpr std::array start_words{"given", "equilibrium"};
+constexpr std::array start_words{"given", "equilibrium"}, about_words{"start", "equilibrium"};
 constexpr std::array integrator_words{"generalized_alpha", "variational", "bdf"};
 
 Option max_cuts(Literal about) {
@@ -220,6 +220,31 @@ std::vector<Option> dynamic_options() {
                "trial. Default: steps and mesh are those of the scene.")};
 }
 
+std::vector<Option> modes_options() {
+  return {
+      {may("about", rule_of_words(about_words),
+           "start: the state of the scene at time 0, with its velocities. equilibrium: the static equilibrium under "
+           "gravity, loads and efforts at time 0, relative to `frame` if that moves; initial velocities are kept, "
+           "so that what spins has its gyroscopic moments.",
+           "\"equilibrium\""),
+       [](const Value& v, Analysis& a) { a.start = static_cast<scene::StartKind>(kind_of_word(about_words, v)); }},
+      {may("count", integer_rule("", 1, 10000),
+           "Vibrations that are looked for. Rigid and unstable motions are listed besides, and all modes of the last "
+           "frequency where it has several.",
+           "10"),
+       [](const Value& v, Analysis& a) { a.modes.count = whole(v); }},
+      {may("shift", number_rule("", 0.0, false), "Frequency next to which they are looked for [Hz]; 0: the slowest.",
+           "0"),
+       [](const Value& v, Analysis& a) { a.modes.shift = v.number; }},
+      {may("damping", boolean_rule(""),
+           "Dampers and damping of sections count: damping ratios and complex shapes. Otherwise they are left out; "
+           "gyroscopic terms, loads that follow and signals count in any case.",
+           "false"),
+       [](const Value& v, Analysis& a) { a.modes.damping = v.truth; }},
+      {may("tolerance", number_rule("", 0.0, true, 1e-2), "Of the equilibrium, as in dynamics [-].", "1e-8"),
+       [](const Value& v, Analysis& a) { a.tolerance = v.number; }}};
+}
+
 std::vector<Option> joined(std::vector<Option> options, const std::vector<Option>& further) {
   options.insert(options.end(), further.begin(), further.end());
   return options;
@@ -240,7 +265,11 @@ const std::vector<KindOptions>& kinds() {
         step_size("Distance h of the times 0, h, 2 h, ... at which the motion is evaluated, besides those of expected "
                   "figures; no result depends on it [s]. Default: 1e-3."),
         max_cuts("Halvings of the way between two times where parts move far."),
-        errors("There are none: nothing is integrated.")}}};
+        errors("There are none: nothing is integrated.")}},
+      {AnalysisKind::modes,
+       "Modes of vibration about a state: frequencies, damping, shapes, effective masses, and what moves and bends in "
+       "each.",
+       modes_options()}};
   return list;
 }
 

@@ -16,6 +16,7 @@
 #include "bough/io/output_folder.hpp"
 #include "bough/lanes/instruction_set.hpp"
 #include "measured_errors.hpp"
+#include "result_tables.hpp"
 
 namespace bough::io {
 namespace {
@@ -372,6 +373,7 @@ std::string summary_text(const records::Summary& summary, std::string_view versi
   write_sensors(json, summary);
   write_expected(json, summary.expected);
   write_measures(json, summary.measures);
+  write_tables(json, summary.tables);
   if (summary.errors) write_measured_errors(json, *summary.errors);
   write_origin(json, origin, files);
   json.end_object();
@@ -416,6 +418,7 @@ SummaryFile read_summary(const std::filesystem::path& path) {
   if (const JsonValue* notes = json->find("notes"); notes != nullptr)
     for (const JsonValue& note : notes->items) summary.notes.push_back(note.text.str());
   if (const JsonValue* measures = json->find("measures"); measures != nullptr) read_measures(*measures, summary);
+  if (const JsonValue* tables = json->find("tables"); tables != nullptr) summary.tables = read_tables(*tables);
   if (const JsonValue* expected = json->find("expected"); expected != nullptr) read_expected(*expected, summary);
   if (const JsonValue* origin = json->find("origin"); origin != nullptr) {
     if (const JsonValue* set = origin->find("set"); set != nullptr)

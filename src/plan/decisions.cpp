@@ -1,7 +1,9 @@
 /// Decisions of the plan apart from the reduction of unknowns (reduce.cpp), each with its condition.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
+#include "bough/scene/analysis_kinds.hpp"
 #include "plan_builder.hpp"
 
 namespace bough::plan {
@@ -14,6 +16,10 @@ bool Plan::took(const std::string& decision) const {
 }
 
 bool Builder::is_barred(const std::string& decision) const {
+  static const std::array<std::string, 3> of_symmetry{"planar", "line", "translation"};
+  if (scene::type_of(scene.analysis.kind).wants_all_motions &&
+      std::find(of_symmetry.begin(), of_symmetry.end(), decision) != of_symmetry.end())
+    return true;
   return std::find(scene.without.begin(), scene.without.end(), decision) != scene.without.end();
 }
 

@@ -480,7 +480,7 @@ Plan make_plan(const scene::Scene& scene) {
   b.hold_nodes();
   b.settle();
   b.list_signals_of_elements();
-  b.say_idle_parts();
+  if (!scene::type_of(scene.analysis.kind).wants_all_motions) b.say_idle_parts();
   b.find_mobility();
   b.make_graph();
   b.add_sensors();

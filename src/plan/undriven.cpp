@@ -165,7 +165,8 @@ class FreeMotions {
 };
 
 bool asks_for_drives(const scene::Scene& scene, const Plan& plan) {
-  return plan.is_dynamic && !scene::type_of(scene.analysis.kind).integrates;
+  const scene::AnalysisType& type = scene::type_of(scene.analysis.kind);
+  return plan.is_dynamic && !type.integrates && !type.is_of_instant;
 }
 
 }  // namespace

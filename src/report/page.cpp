@@ -1,6 +1,7 @@
 #include "bough/report/page.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "bough/io/columns.hpp"
@@ -46,7 +47,8 @@ void add_motion(Document& page, const RunFiles& run, const PictureOptions& optio
   if (run.motion.empty()) return page.paragraph(how_to_record_motion(), Tone::soft);
   page.markup(
       "<div id=\"viewer\" hidden></div>\n<p id=\"no-webgl\" class=\"lead\" hidden></p>\n<figure id=\"motion\">\n" +
-      make_picture(run.motion, options).svg + "</figure>\n");
+      make_picture(is_of_modes(run) && run.motion.size() > 2 ? frames_of_mode(run, 1) : run.motion, options).svg +
+      "</figure>\n");
 }
 
 /// Signals with their values in the last picture. The script shows those at the time of the picture.
@@ -140,6 +142,32 @@ void add_expected(Document& page, const std::vector<records::ExpectedResult>& ex
                 passed, open.rows.empty() && passed.rows.size() <= 12);
 }
 
+void add_tables(Document& page, const std::vector<records::Table>& tables) {
+  for (const records::Table& table : tables) {
+    std::string heading = table.name;
+    heading.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(heading.front())));
+    page.section(heading);
+    page.paragraph(table.about);
+    Table brief, whole;
+    for (const records::Table::Column& column : table.columns) {
+      whole.head.push_back(words_of(column.name) + (column.unit.empty() ? "" : " [" + column.unit + "]"));
+      if (column.is_brief) brief.head.push_back(whole.head.back());
+    }
+    for (const auto& row : table.rows) {
+      std::vector<Cell> cells, few;
+      for (std::size_t c = 0; c < row.size(); ++c) {
+        const double* number = std::get_if<double>(&row[c]);
+        cells.push_back(number != nullptr ? number_cell(*number, 7) : Cell{std::get<std::string>(row[c])});
+        if (table.columns[c].is_brief) few.push_back(cells.back());
+      }
+      whole.rows.push_back(std::move(cells));
+      brief.rows.push_back(std::move(few));
+    }
+    page.table(brief);
+    page.folded("All columns", whole, false);
+  }
+}
+
 void add_checks(Document& page, const io::SummaryFile& s) {
   if (!s.doubts.empty()) {
     page.section("Not to be trusted without a closer look");
@@ -167,11 +195,53 @@ std::string_view how_to_record_motion() {
          "/output/motion=true.";
 }
 
-bool is_static(const RunFiles& run) {
-  if (run.summary)
-    for (const auto& [pointer, text] : run.summary->options)
-      if (text == "static" && pointer.starts_with("/analysis")) return true;
-  return false;
+namespace {
+
+bool is_of_kind(const RunFiles& run, std::string_view kind) {
+  return run.summary && std::any_of(run.summary->options.begin(), run.summary->options.end(), [&](const auto& option) {
+           return option.first == "/analysis/kind" && option.second == kind;
+         });
+}
+
+}  // namespace
+
+bool is_static(const RunFiles& run) { return is_of_kind(run, "static"); }
+
+bool is_of_modes(const RunFiles& run) { return is_of_kind(run, "modes"); }
+
+std::vector<std::string> mode_labels(const RunFiles& run) {
+  std::vector<std::string> labels;
+  if (!is_of_modes(run)) return labels;
+  for (const records::Table& table : run.summary->tables) {
+    const auto cell = [&](const auto& row, std::string_view name) -> const records::Table::Cell& {
+      const auto at =
+          std::find_if(table.columns.begin(), table.columns.end(), [&](const auto& c) { return c.name == name; });
+      return row[static_cast<std::size_t>(at - table.columns.begin())];
+    };
+    if (table.name != "modes") continue;
+    for (const auto& row : table.rows) {
+      const double frequency = std::get<double>(cell(row, "frequency"));
+      labels.push_back(
+          std::to_string(labels.size() + 1) + ": " +
+          (frequency > 0.0 ? io::rounded_text(frequency, 5) + " Hz" : std::get<std::string>(cell(row, "kind"))) + ", " +
+          std::get<std::string>(cell(row, "what")));
+    }
+  }
+  return labels;
+}
+
+std::vector<records::MotionFrame> frames_of_mode(const RunFiles& run, int mode) {
+  std::vector<records::MotionFrame> frames;
+  for (const double phase : {0.75, 0.0, 0.25}) {
+    const double time = mode - 1 + phase;
+    const auto nearest = std::min_element(run.motion.begin(), run.motion.end(), [&](const auto& a, const auto& b) {
+      return std::abs(a.time - time) < std::abs(b.time - time);
+    });
+    if (nearest == run.motion.end() || std::abs(nearest->time - time) > 0.1) return {};
+    frames.push_back(*nearest);
+    frames.back().time = phase;
+  }
+  return frames;
 }
 
 bool has_velocities(const RunFiles& run) { return !run.is_by_step && !is_static(run); }
@@ -204,6 +274,7 @@ RunFiles by_step(RunFiles run) {
 }
 
 std::string_view time_label(const RunFiles& run) {
+  if (is_of_modes(run)) return "mode";
   return run.is_by_step ? "step" : is_static(run) ? "load factor" : "time [s]";
 }
 
@@ -268,6 +339,7 @@ std::string page_html(const RunFiles& run, const PictureOptions& options, const 
   add_signals(page, run, other);
   add_plots(page, run);
   if (run.summary) {
+    add_tables(page, run.summary->tables);
     add_expected(page, run.summary->expected);
     add_checks(page, *run.summary);
   }

@@ -408,8 +408,9 @@ class Painter {
     canvas_.cover(left + pixels - 2.0, base - 1.0, 2.0, 8.0, ink);
     const std::string words = io::rounded_text(length, 3) + " m";
     canvas_.label(left + pixels + 10.0, base - 6.0, words, ink);
-    const std::string when =
-        is_static(run_) ? "load factor " + io::rounded_text(time, 3) : "t = " + io::rounded_text(time, 4) + " s";
+    const std::string when = is_of_modes(run_) ? "mode " + std::to_string(1 + static_cast<int>(time))
+                             : is_static(run_) ? "load factor " + io::rounded_text(time, 3)
+                                               : "t = " + io::rounded_text(time, 4) + " s";
     canvas_.label(options_.width - 20.0 - 2.0 * letter_step * static_cast<double>(when.size()), base - 6.0, when, ink);
   }
 

@@ -518,9 +518,12 @@ std::size_t num_signals_shown(const RunFiles& run) {
 std::string view_data(const RunFiles& run, std::size_t most_bytes) {
   std::vector<const MotionFrame*> frames;
   for (const MotionFrame& f : run.motion) frames.push_back(&f);
+  const std::vector<std::string> modes = mode_labels(run);
   const std::string head = "{\"name\":" + io::json_string(run.name) +
-                           ",\"isStatic\":" + (is_static(run) ? "true" : "false") + ",\"timeLabel\":\"" +
-                           std::string(time_label(run)) + "\",";
+                           ",\"isStatic\":" + (is_static(run) || is_of_modes(run) ? "true" : "false") +
+                           ",\"timeLabel\":\"" + std::string(time_label(run)) +
+                           "\",\"modes\":" + list_of(modes, [&](std::size_t k) { return io::json_string(modes[k]); }) +
+                           ",";
   constexpr std::size_t many_points = 8000;
   std::size_t num_points = 0;
   if (!frames.empty())

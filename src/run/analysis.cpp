@@ -56,6 +56,7 @@ std::vector<double> Analysis::stops_between(double begin, double end) const {
 }
 
 std::unique_ptr<Analysis> make_inverse_dynamics(const Parts& parts);  // inverse_dynamics.cpp
+std::unique_ptr<Analysis> make_modes(const Parts& parts);             // modes.cpp
 
 namespace {
 
@@ -79,6 +80,8 @@ std::unique_ptr<Analysis> make_analysis(const Parts& parts) {
       return make_dynamics(parts);
     case scene::AnalysisKind::inverse_dynamics:
       return make_inverse_dynamics(parts);
+    case scene::AnalysisKind::modes:
+      return make_modes(parts);
   }
   throw std::logic_error("no analysis of this kind");
 }

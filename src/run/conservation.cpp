@@ -73,7 +73,7 @@ void Conservation::sum_up(records::Checks& c, const step::StepOptions& options, 
   if (fast_joint_ >= 0) c.fast_joint = plan_.joints[static_cast<std::size_t>(fast_joint_)].name;
   c.energy_balance = balance_.energy_error();
   c.energy_scale = balance_.energy_scale();
-  if (plan_.is_dynamic) c.energy_round_off = energy_round_off(options, duration);
+  if (plan_.is_dynamic && duration > 0.0) c.energy_round_off = energy_round_off(options, duration);
   c.numerical_dissipation = std::max(0.0, -balance_.last_energy_error());
   c.energy_gained = std::max(0.0, balance_.last_energy_error());
   c.momentum_balance = balance_.momentum_error();

@@ -32,7 +32,13 @@ records::EffectiveOptions effective_options(const scene::Scene& scene, const ste
   const scene::AnalysisType& kind = scene::type_of(scene.analysis.kind);
   list.emplace_back("analysis/kind", quoted(std::string(kind.name)));
   if (!scene.analysis.frame.empty()) list.emplace_back("analysis/frame", quoted(scene.analysis.frame));
-  if (kind.is_in_time) {
+  if (kind.is_of_instant) {
+    list.emplace_back("analysis/about",
+                      quoted(scene.analysis.start == scene::StartKind::equilibrium ? "equilibrium" : "start"));
+    list.emplace_back("analysis/count", std::to_string(scene.analysis.modes.count));
+    list.emplace_back("analysis/shift", number(scene.analysis.modes.shift));
+    list.emplace_back("analysis/damping", scene.analysis.modes.damping ? "true" : "false");
+  } else if (kind.is_in_time) {
     if (scene.analysis.start == scene::StartKind::equilibrium)
       list.emplace_back("analysis/start", quoted("equilibrium"));
     list.emplace_back("analysis/end_time", number(scene.analysis.end_time));
@@ -82,7 +88,7 @@ records::EffectiveOptions effective_options(const scene::Scene& scene, const ste
     list.emplace_back("analysis/tolerance", number(o.tolerance));
     list.emplace_back("analysis/max_iterations", std::to_string(o.max_iterations));
   }
-  list.emplace_back("analysis/max_cuts", std::to_string(o.max_cuts));
+  if (!kind.is_of_instant) list.emplace_back("analysis/max_cuts", std::to_string(o.max_cuts));
   const scene::SolverForm form = scene.solver.form;
   list.emplace_back("solver/form", quoted(scene::to_string(form)));
   if (form == scene::SolverForm::monolithic) {

@@ -52,6 +52,7 @@ std::string rounded(double x) {
 std::string megabytes(double bytes) { return rounded(1e-6 * bytes) + " MB"; }
 
 double steps_of(const scene::Analysis& a) {
+  if (scene::type_of(a.kind).is_of_instant) return 1.0;
   if (scene::type_of(a.kind).is_in_time)
     return a.step_size > 0.0 ? std::ceil(a.end_time / a.step_size * (1.0 - 1e-9)) : 0.0;
   return a.arc_length ? a.arc_length->max_steps : a.load_steps;

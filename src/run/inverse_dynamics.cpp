@@ -7,6 +7,7 @@
 #include "bough/io/number_text.hpp"
 #include "bough/plan/undriven.hpp"
 #include "bough/step/advance.hpp"
+#include "bough/step/linearisation.hpp"
 
 namespace bough::run {
 
@@ -158,7 +159,7 @@ class InverseDynamics final : public Analysis {
     if (knows_rank())
       account().watch_dependent_rows(state_.time);
     else
-      account().watch_dependent_rows(state_.time, *of_rank_);
+      account().watch_dependent_rows(state_.time, of_rank_->solver());
     last_step_ = interval;
     record(0, is_done());
     if (is_done()) recording_.end_stretch(state_);
@@ -171,26 +172,14 @@ class InverseDynamics final : public Analysis {
   /// then the same matrix is factored in the form that does.
   int dependent_rows() {
     if (knows_rank()) return system_.linear().solver().last_status().deficiency;
-    const blocks::BlockGraph& graph = plan_.graph;
-    if (!of_rank_)
-      of_rank_ = std::make_shared<solve::Hierarchical>(graph, system_.linear().tree(),
-                                                       solve::SolveOptions{.check = solve::SolveCheck::none});
-    for (int e = 0; e < graph.num_elements(); ++e) {
-      std::size_t n = 0;
-      for (auto k = graph.element_begin[static_cast<std::size_t>(e)];
-           k < graph.element_begin[static_cast<std::size_t>(e) + 1]; ++k)
-        n += static_cast<std::size_t>(
-            graph.block_size[static_cast<std::size_t>(graph.element_blocks[static_cast<std::size_t>(k)])]);
-      const solve::ConstElementView from = system_.linear().solver().element(e);
-      const solve::ElementView to = of_rank_->element(e);
-      for (std::size_t i = 0; i < n * n; ++i) to[static_cast<std::int64_t>(i)] = from[static_cast<std::int64_t>(i)];
-    }
-    return of_rank_->factor(system_.walker()).deficiency;
+    if (!of_rank_) of_rank_ = std::make_shared<step::Linearisation>(system_);
+    of_rank_->take_tangents();
+    return of_rank_->factor({}, solve::Symmetry::general).deficiency;
   }
 
   long allowed_ = 0;  ///< number of motions without effect that drives leave free
   bool has_begun_ = false;
-  std::shared_ptr<solve::Hierarchical> of_rank_;  ///< made where it is needed; its contents are scratch
+  std::shared_ptr<step::Linearisation> of_rank_;  ///< made where it is needed; its contents are scratch
   long intervals_, next_ = 1;                     ///< of the step size up to the end, and the end of the next one
   std::vector<double> stops_;
   step::State tried_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/scene/analysis_kinds.hpp"
 #include "hidden_rows.hpp"
 #include "solver_figures.hpp"
 #include "trust.hpp"
@@ -95,7 +96,8 @@ void judge(const EndedRun& run) {
   summary.solver = solver_figures(run.system, account.dependent_rows());
   note_missing_interfaces(run);
   if (summary.status == RunStatus::ok) {
-    look_at_last_factor(run.system, summary);
+    // What looks at one state leaves matrices in the solver that it has not factored.
+    if (!scene::type_of(run.scene.analysis.kind).is_of_instant) look_at_last_factor(run.system, summary);
     if (run.analysis.ends_in_correction()) estimate_solution_error(run.system, run.state, summary);
   }
   run.analysis.sum_up();

@@ -113,15 +113,27 @@ void Recording::record(const step::State& state, double step_size, int iteration
   add_figures(state);
 }
 
+/// To be called with every picture: before the first one the recorder is told what does not change.
+void Recording::begin_picture(const records::MotionFrame& frame) {
+  gate_.look_at(frame);
+  if (!pictures_.is_first()) return;
+  const records::MotionParts parts = results::make_parts(scene_, system_);
+  if (const auto fewer = pictures_.set_size(frame, parts, recorder_.keeps_states() ? system_.plan().nodes.size() : 0))
+    account_.note(*fewer);
+  recorder_.parts(parts);
+}
+
+void Recording::draw_shape(const step::State& state) {
+  if (!pictures_.is_wanted()) return;
+  const step::PhaseTimer timer{system_.clock(), summary().times.output};
+  const records::MotionFrame frame = results::eval_motion(system_, state);
+  begin_picture(frame);
+  recorder_.motion(frame);
+}
+
 void Recording::draw(const step::State& state, bool is_last) {
   records::MotionFrame frame = results::eval_motion(system_, state);
-  gate_.look_at(frame);
-  if (pictures_.is_first()) {
-    const records::MotionParts parts = results::make_parts(scene_, system_);
-    if (const auto fewer = pictures_.set_size(frame, parts, recorder_.keeps_states() ? system_.plan().nodes.size() : 0))
-      account_.note(*fewer);
-    recorder_.parts(parts);
-  }
+  begin_picture(frame);
   frame.for_others = pictures_.take(state.time, is_last);
   frame.turn = turns_.turn();
   if (frame.turn > records::largest_turn && !is_turn_told_) {

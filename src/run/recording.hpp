@@ -38,6 +38,8 @@ class Recording {
 
   /// Records the end of an accepted step of this size, or a start (size 0), as the left limit at its time.
   void record(const step::State& state, double step_size, int iterations, bool is_last);
+  /// Draws a state that is no part of the history, where pictures are wanted; its time tells its place among pictures.
+  void draw_shape(const step::State& state);
   /// Evaluates figures at a state that has no row of its own.
   void add_figures(const step::State& state) { figures_.add(system_, state, conservation_.energies()); }
   /// To be called at a breakpoint or the end of the run: figures are not interpolated across it.
@@ -64,6 +66,7 @@ class Recording {
  private:
   bool is_due(long row, bool is_last) const;
   void draw(const step::State& state, bool is_last);
+  void begin_picture(const records::MotionFrame& frame);
   /// Whether the run passes the time of a figure, if it has one: it may start later, and its end may have been reduced.
   bool is_time_passed(const std::optional<double>& time) const;
 

@@ -7,6 +7,7 @@ const std::vector<AnalysisType>& analysis_types() {
       {AnalysisKind::statics, "static", "statics", false, false},
       {AnalysisKind::dynamics, "dynamic", "dynamics", true, true},
       {AnalysisKind::inverse_dynamics, "inverse_dynamics", "inverse dynamics", true, false},
+      {AnalysisKind::modes, "modes", "modes", true, false, true, true},
   };
   return types;
 }

@@ -277,7 +277,7 @@ void check_start(ProblemList& list) {
     const motion::FrameMotion m = motion_at(*f.motion, 0.0);
     if (lanes::dot(m.velocity, m.velocity) > 0.0 || lanes::dot(m.angular_velocity, m.angular_velocity) > 0.0)
       list.add(
-          "analysis", 0, "start", "equilibrium",
+          "analysis", 0, type_of(list.scene.analysis.kind).is_of_instant ? "about" : "start", "equilibrium",
           "frame '" + f.name + "' moves at time 0, so what it carries is at rest in no equilibrium",
           "name that frame as `frame` of the analysis, let all frames that move turn as one about a fixed axis, let it "
           "start from rest, or leave out start");
@@ -326,6 +326,7 @@ void check_analysis(ProblemList& list) {
              "leave out accuracy or arc_length");
   if (!list.is_dynamic) return;  // no dynamics, or the analysis itself is at fault
   check_start(list);
+  if (type_of(a.kind).is_of_instant) return;
   if (!(a.end_time > 0.0)) list.add("analysis", 0, "end_time", text_of(a.end_time), "has to be above 0");
   if (!(a.step_size > 0.0)) list.add("analysis", 0, "step_size", text_of(a.step_size), "has to be above 0");
   if (a.step_size > a.end_time)

@@ -149,7 +149,9 @@ void check_turns(ProblemList& list) {
 void check_times(ProblemList& list, double extent) {
   constexpr double many = 2e5, fall = 9.81;
   const Analysis& a = list.scene.analysis;
-  if (!list.is_dynamic || !(a.step_size > 0.0) || !(a.step_size < overflowing) || a.step_control) return;
+  if (!list.is_dynamic || type_of(a.kind).is_of_instant || !(a.step_size > 0.0) || !(a.step_size < overflowing) ||
+      a.step_control)
+    return;
   const double longest = std::sqrt(2.0 * extent / fall);
   if (extent > 0.0 && a.step_size > longest && a.step_size >= 0.1)
     list.warn("analysis", 0, "step_size", text_of(a.step_size),

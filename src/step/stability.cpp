@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "bough/blocks/at.hpp"
@@ -17,33 +18,14 @@ namespace {
 constexpr int most_iterations = 30;  ///< limit of inverse iterations with one shift
 constexpr double settled = 1e-3;     ///< relative change of the curvature at convergence; the node is known earlier
 constexpr int most_shifts = 60;      ///< limit of shifts, each four times the last
-constexpr double round_offs = 64.0;  ///< a curvature below this many eps times its terms is taken as zero
 constexpr double neutral = 1e-11;    ///< part of the diagonal that is added if the tangent is singular
 
 }  // namespace
 
 Stability::Stability(System& system) : system_(system) {
-  const plan::Plan& plan = system.plan();
-  const blocks::BlockGraph& g = plan.graph;
-  const double of_length = 1.0 / (plan.length_scale * plan.length_scale);
-  std::vector<char> seen(at(g.num_blocks()), 0);
+  const blocks::BlockGraph& g = system.plan().graph;
   for (int b = 0; b < g.num_blocks(); ++b)
     if (g.block_kind[at(b)] == blocks::BlockKind::multiplier) num_rows_ += g.block_size[at(b)];
-  for (int e = 0; e < g.num_elements(); ++e) {
-    int size = 0, row = 0;
-    for (std::int64_t k = g.element_begin[at(e)]; k < g.element_begin[at(e) + 1]; ++k)
-      size += g.block_size[at(g.element_blocks[at(k)])];
-    for (std::int64_t k = g.element_begin[at(e)]; k < g.element_begin[at(e) + 1]; ++k) {
-      const int b = g.element_blocks[at(k)];
-      const int n = g.block_size[at(b)];
-      if (g.block_kind[at(b)] == blocks::BlockKind::motion && seen[at(b)]++ == 0)
-        for (int i = 0; i < n; ++i)
-          diagonal_.push_back({at(system.places().block_begin(b) + i), e,
-                               static_cast<std::int64_t>(row + i) * size + row + i,
-                               plan.unknowns.is_length(i) ? of_length : 1.0});
-      row += n;
-    }
-  }
 }
 
 StabilityLook Stability::read(const solve::Inertia& inertia, int deficiency) const {
@@ -68,59 +50,21 @@ StabilityLook Stability::look() {
 
 StabilityLook Stability::look_closely() {
   if (!factor_copy(0.0, 0.0) && !factor_copy(0.0, neutral)) return {};
-  return read(copy_->inertia(), copy_->last_status().deficiency);
+  return read_copy();
 }
 
-void Stability::copy_tangents() {
-  const plan::Plan& plan = system_.plan();
-  const bool symmetric = is_conservative();
-  if (!copy_)
-    copy_ = std::make_unique<solve::Hierarchical>(
-        plan.graph, system_.linear().tree(),
-        solve::SolveOptions{.symmetry = symmetric ? solve::Symmetry::symmetric : solve::Symmetry::general,
-                            .inertia = true,
-                            .lanes = plan.took("lanes"),
-                            .check = solve::SolveCheck::none});
-  const blocks::BlockGraph& g = plan.graph;
-  for (int e = 0; e < g.num_elements(); ++e) {
-    int n = 0;
-    for (std::int64_t k = g.element_begin[at(e)]; k < g.element_begin[at(e) + 1]; ++k)
-      n += g.block_size[at(g.element_blocks[at(k)])];
-    const solve::ConstElementView from = system_.linear().solver().element(e);
-    const solve::ElementView to = copy_->element(e);
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j)
-        to[i * n + j] = symmetric ? 0.5 * (from[i * n + j] + from[j * n + i]) : from[i * n + j];
-  }
+StabilityLook Stability::read_copy() {
+  return read(copy_->solver().inertia(), copy_->solver().last_status().deficiency);
 }
 
-void Stability::add_to_diagonal(double shift, double relative_shift) {
-  if (relative_shift > 0.0) {
-    sizes_.assign(system_.places().size(), 0.0);
-    const blocks::BlockGraph& g = system_.plan().graph;
-    for (int e = 0; e < g.num_elements(); ++e) {
-      std::int64_t n = 0, row = 0;
-      for (std::int64_t k = g.element_begin[at(e)]; k < g.element_begin[at(e) + 1]; ++k)
-        n += g.block_size[at(g.element_blocks[at(k)])];
-      const solve::ConstElementView a = system_.linear().solver().element(e);
-      for (std::int64_t k = g.element_begin[at(e)]; k < g.element_begin[at(e) + 1]; ++k) {
-        const int b = g.element_blocks[at(k)];
-        for (int i = 0; i < g.block_size[at(b)]; ++i, ++row)
-          sizes_[at(system_.places().block_begin(b) + i)] += std::abs(a[row * n + row]);
-      }
-    }
-  }
-  for (const Diagonal& d : diagonal_)
-    copy_->element(d.element)[d.entry] +=
-        shift * d.weight + (relative_shift > 0.0 ? relative_shift * sizes_[d.unknown] : 0.0);
-}
-
-/// Factors a copy of the present tangents, K + shift N, where N is the diagonal of weights.
+/// Factors a copy of the present tangents, K + shift N + relative_shift |diag K|.
 bool Stability::factor_copy(double shift, double relative_shift) {
-  copy_tangents();
-  if (shift > 0.0 || relative_shift > 0.0) add_to_diagonal(shift, relative_shift);
-  copy_->rescale();
-  return copy_->factor(system_.walker()).ok();
+  if (!copy_) copy_ = std::make_unique<Linearisation>(system_);
+  copy_->take_tangents();
+  return copy_
+      ->factor({.weights = shift, .of_diagonal = relative_shift},
+               is_conservative() ? solve::Symmetry::symmetric : solve::Symmetry::general)
+      .ok();
 }
 
 /// Inverse iteration from x with the factored copy: y = (K + shift N)^-1 N x on ker G. Returns the curvature y^T (K +
@@ -128,42 +72,20 @@ bool Stability::factor_copy(double shift, double relative_shift) {
 double Stability::iterate(std::vector<double>& x, std::vector<double>& y) {
   double curvature = 0.0;
   for (int k = 0; k < most_iterations; ++k) {
-    std::vector<double> rhs(x.size(), 0.0);
-    for (const Diagonal& d : diagonal_) rhs[d.unknown] = d.weight * x[d.unknown];
-    static_cast<void>(copy_->solve(system_.walker(), rhs.data(), y.data()));
-    double along = 0.0, square = 0.0, largest = 0.0;
-    for (const Diagonal& d : diagonal_) {
-      along += y[d.unknown] * rhs[d.unknown];
-      square += y[d.unknown] * y[d.unknown] * d.weight;
-      largest = std::max(largest, std::abs(y[d.unknown]));
-    }
+    const std::vector<double>& weights = copy_->weights();
+    std::vector<double> rhs(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) rhs[i] = weights[i] * x[i];
+    static_cast<void>(copy_->solve(rhs, y));
+    const double along = std::inner_product(y.begin(), y.end(), rhs.begin(), 0.0), square = copy_->inner(y, y);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < y.size(); ++i)
+      if (weights[i] > 0.0) largest = std::max(largest, std::abs(y[i]));
     if (!(largest > 0.0) || !std::isfinite(largest) || !(square > 0.0)) return std::numeric_limits<double>::quiet_NaN();
     const double before = std::exchange(curvature, along / square);
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = y[i] / largest;
     if (k > 2 && std::abs(curvature - before) <= settled * std::abs(curvature)) break;
   }
   return curvature;
-}
-
-/// Round-off of x^T K x: round_offs eps sum |x_i| |K_ij| |x_j| over all elements, without multipliers.
-double Stability::round_off(const std::vector<double>& x) const {
-  const blocks::BlockGraph& g = system_.plan().graph;
-  std::vector<double> own;
-  double sum = 0.0;
-  for (int e = 0; e < g.num_elements(); ++e) {
-    own.clear();
-    for (std::int64_t k = g.element_begin[at(e)]; k < g.element_begin[at(e) + 1]; ++k) {
-      const int b = g.element_blocks[at(k)];
-      const bool moves = g.block_kind[at(b)] == blocks::BlockKind::motion;
-      for (int i = 0; i < g.block_size[at(b)]; ++i)
-        own.push_back(moves ? std::abs(x[at(system_.places().block_begin(b) + i)]) : 0.0);
-    }
-    const solve::ConstElementView a = system_.linear().solver().element(e);
-    for (std::size_t i = 0; i < own.size(); ++i)
-      for (std::size_t j = 0; j < own.size(); ++j)
-        sum += own[i] * std::abs(a[static_cast<std::int64_t>(i * own.size() + j)]) * own[j];
-  }
-  return round_offs * std::numeric_limits<double>::epsilon() * sum;
 }
 
 /// The first shift is zero. Once the shift is large enough, the smallest eigenvalues of K + shift N belong to the most
@@ -174,14 +96,13 @@ std::optional<UnstableMode> Stability::find_mode(const State& state) {
   bool is_stable = false;
   for (int k = 0; k < most_shifts && !is_stable; ++k) {
     if (!factor_copy(shift, 0.0) && !factor_copy(shift, neutral)) return std::nullopt;
-    const StabilityLook look = read(copy_->inertia(), copy_->last_status().deficiency);
+    const StabilityLook look = read_copy();
     is_stable = k > 0 && look.is_known && look.unstable == 0;
-    for (std::size_t i = 0; i < diagonal_.size(); ++i)  // the start has a component in every direction
-      x[diagonal_[i].unknown] = 1.0 + std::sin(static_cast<double>(7 * i + 1));
+    for (std::size_t i = 0; i < x.size(); ++i)  // the start has a component in every direction
+      x[i] = copy_->weights()[i] > 0.0 ? 1.0 + std::sin(static_cast<double>(7 * i + 1)) : 0.0;
     const double shifted = iterate(x, y), curvature = shifted - shift;
-    double square = 0.0;
-    for (const Diagonal& d : diagonal_) square += x[d.unknown] * x[d.unknown] * d.weight;
-    if (std::isfinite(curvature) && curvature * square < -round_off(x)) return mode_of(state, x);
+    const double noise = copy_->round_off(Linearisation::Part::stiffness, x);
+    if (std::isfinite(curvature) && curvature * copy_->inner(x, x) < -noise) return mode_of(state, x);
     if (!is_conservative()) return mode_of(state, x);  // the eigenvalue nearest to zero changed its sign
     shift = shift == 0.0 ? 1.5 * std::abs(curvature) : 4.0 * shift;
     if (!(shift > 0.0) || !std::isfinite(shift)) return std::nullopt;

@@ -83,6 +83,14 @@ def main():
     (folder / "cut/history.csv").write_text("\n".join(rows[:4]) + "\n0.03,0.0")
     assert len(bough.read(folder / "cut")) == 3 and bough.read(folder / "cut").status == "unfinished"
 
+    # A table has its numbers as arrays and its texts as lists.
+    modes = bough.run(scene, folder / "modes", set={"/analysis": {"kind": "modes", "count": 3}})
+    table = modes.tables["modes"]
+    assert len(table["frequency"]) == 3 and (numpy.diff(table["frequency"]) > 0).all() and run.tables == {}
+    assert table["kind"] == ["vibration"] * 3 and "ball" in table["what"][0], table
+    listed = (folder / "modes/modes.csv").read_text(encoding="utf-8").splitlines()
+    assert listed[0].startswith("mode,kind,frequency [Hz],") and float(listed[1].split(",")[2]) == table["frequency"][0]
+
     # Long histories have a twin for NumPy with the same bits; one that a crash left tells its rows by its size.
     assert not (folder / "out/history.npy").exists()
     rest = bough.run(scene, folder / "rest", set={"/analysis/end_time": 0.2}, start=folder / "out", start_time=0.1)

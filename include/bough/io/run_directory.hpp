@@ -118,7 +118,7 @@ class RunDirectory final : public records::Recorder {
   void settle_checkpoints(records::RunStatus status);
   /// Gives the files their names; returns the first failure.
   std::exception_ptr commit_files();
-  std::exception_ptr commit_errors(const records::MeasuredErrors& errors);
+  std::exception_ptr commit_text(const std::string& name, const std::string& text);
   void list(FileRecord record);
 
   std::filesystem::path directory_;

@@ -50,6 +50,7 @@ struct SummaryFile {
   std::string not_judged;              ///< errors that may exist nevertheless
   std::vector<records::ExpectedResult> expected;
   std::vector<records::MeasureResult> measures;
+  std::vector<records::Table> tables;
   std::string scene_hash, start_hash;  ///< of the scene, and of the state in which it started; empty: there is none
   std::vector<std::string> overrides;  ///< of the scene, as they were given
   std::vector<FileRecord> files;       ///< that were written with it

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bough/records/archive.hpp"
+#include "bough/records/table.hpp"
 #include "bough/scene/outlines.hpp"
 
 namespace bough::records {
@@ -301,6 +302,7 @@ struct Summary {
   std::vector<double> final_values;  ///< by header
   std::vector<ExpectedResult> expected;
   std::vector<MeasureResult> measures;     ///< in the order of the scene
+  std::vector<Table> tables;               ///< results that are no history, as modes
   std::vector<Doubt> doubts;               ///< why the run should not be trusted, in words; empty: nothing was found
   std::vector<SensorError> sensor_errors;  ///< of sensors of motions, where local errors are known
   std::string not_judged;                  ///< of which sensors no error in time was estimated and why, in words

@@ -26,7 +26,13 @@ struct RunFiles {
 /// (io::read_whole_summary).
 RunFiles read_run(const std::filesystem::path& directory, std::size_t max_frames = 301);
 
-bool is_static(const RunFiles& run);  ///< its histories are functions of the load factor
+bool is_static(const RunFiles& run);    ///< its histories are functions of the load factor
+bool is_of_modes(const RunFiles& run);  ///< its pictures are shapes of modes: that of mode k from time k - 1 to k
+/// "3: 12.5 Hz, 'blade' bends along (0, 0, 1)"
+std::vector<std::string> mode_labels(const RunFiles& run);
+/// The state that modes are about, and the shape of one (from 1 on) where it is farthest, to both sides. Nothing where
+/// there is no such mode.
+std::vector<records::MotionFrame> frames_of_mode(const RunFiles& run, int mode);
 /// Whether velocities of its motion are derivatives of the places by what the histories are functions of.
 bool has_velocities(const RunFiles& run);
 

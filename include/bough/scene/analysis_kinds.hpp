@@ -16,6 +16,10 @@ struct AnalysisType {
   std::string_view title;  ///< in sentences
   bool is_in_time;         ///< parts have velocities and accelerations, laws are functions of time; else of the load
   bool integrates;         ///< the motion follows from equations of motion, step by step
+  bool is_of_instant = false;  ///< looks at one state: there is no end and no step
+  /// Decisions of the plan that rest on symmetry would hide results: motions are left out only where constraints leave
+  /// them out.
+  bool wants_all_motions = false;
 };
 
 /// All kinds, in the order of their numbers.

@@ -311,7 +311,7 @@ struct Sensor {
   std::vector<std::string> chain;  ///< acceleration_split: frames, nodes or bodies, each moving in the previous one
 };
 
-enum class AnalysisKind : std::uint8_t { statics, dynamics, inverse_dynamics };
+enum class AnalysisKind : std::uint8_t { statics, dynamics, inverse_dynamics, modes };
 enum class Newton : std::uint8_t { full, single };
 enum class Integrator : std::uint8_t { generalized_alpha, variational, bdf };
 
@@ -361,6 +361,13 @@ struct Accuracy {
 /// Where dynamics begins: in the poses that the scene gives, or in the equilibrium under the loads of t = 0.
 enum class StartKind : std::uint8_t { given, equilibrium };
 
+/// What is asked of modes of vibration; about a state or an equilibrium is Analysis::start.
+struct ModesAsked {
+  int count = 10;        ///< vibrations
+  double shift = 0.0;    ///< frequency near which they are looked for [Hz]; 0: the slowest
+  bool damping = false;  ///< dampers count
+};
+
 struct Analysis {
   AnalysisKind kind = AnalysisKind::dynamics;
   /// The frame in which the scene is described, which is the "ground" of all parts that name no frame. Empty: the
@@ -372,14 +379,15 @@ struct Analysis {
   std::optional<ArcLength> arc_length;  ///< instead of load steps
   bool unstable = false;                ///< unstable equilibria are expected: the run casts no doubt on them
   // dynamics
-  StartKind start = StartKind::given;
-  double end_time = 0.0;    ///< [s]
-  double step_size = 1e-3;  ///< h [s]; of the first step where sizes are controlled
+  StartKind start = StartKind::given;  ///< also of what modes are about
+  double end_time = 0.0;               ///< [s]
+  double step_size = 1e-3;             ///< h [s]; of the first step where sizes are controlled
   std::optional<StepControl> step_control;
   Integrator integrator = Integrator::generalized_alpha;
   double spectral_radius = 0.8;  ///< of generalized-alpha
   int bdf_order = 0;             ///< of backward differences: 2 or 3; 0: 3, but 2 where undamped vibrations would grow
   double newmark_beta = 0.3;     ///< of the variational integrator, for vibrations
+  ModesAsked modes;
   // both
   Newton newton = Newton::full;
   double tolerance = 1e-8;  ///< of relative motions and of residuals relative to their contributions [-]

@@ -18,7 +18,8 @@ struct GrowingVibration {
 ///   P = [K + s M, G^T; G, 0]^-1 (s M),   eigenvalues p = s / (omega^2 + s)
 /// whose shift s lies in the middle of the band. 4 P (1 - P), applied again and again, leaves what is nearest to it;
 /// the ratio of two such vectors in a row tells whether that is inside. One factorization and some 50 solutions.
-/// Overwrites tangents, factor, residual and right-hand side of `system`. Nothing is found where the solution fails.
+/// Overwrites tangents, residual and right-hand side of `system`, whose factor serves no more. Nothing is found where
+/// the solution fails.
 std::optional<GrowingVibration> find_growing_vibration(System& system, const State& state, double h);
 
 }  // namespace bough::step

@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "bough/step/system.hpp"
+#include "bough/step/linearisation.hpp"
 
 namespace bough::step {
 
@@ -33,8 +33,7 @@ class Stability {
  public:
   explicit Stability(System& system);
   /// A copy makes its own factors where it needs them.
-  Stability(const Stability& other)
-      : system_(other.system_), diagonal_(other.diagonal_), num_rows_(other.num_rows_), last_(other.last_) {}
+  Stability(const Stability& other) : system_(other.system_), num_rows_(other.num_rows_), last_(other.last_) {}
 
   void checkpoint(records::Archive& archive) { archive(last_); }
 
@@ -55,26 +54,14 @@ class Stability {
  private:
   StabilityLook read(const solve::Inertia& inertia, int deficiency) const;
   bool factor_copy(double shift, double relative_shift);
-  void copy_tangents();
-  void add_to_diagonal(double shift, double relative_shift);
+  StabilityLook read_copy();
   double iterate(std::vector<double>& x, std::vector<double>& y);
-  double round_off(const std::vector<double>& x) const;
   UnstableMode mode_of(const State& state, const std::vector<double>& x) const;
 
-  /// An unknown of a node, with the place of its diagonal entry in the matrix of one element at the node.
-  struct Diagonal {
-    std::size_t unknown;
-    int element;
-    std::int64_t entry;
-    double weight;  ///< 1 / L^2 of displacements, 1 of rotations
-  };
-
   System& system_;
-  std::vector<Diagonal> diagonal_;
-  std::vector<double> sizes_;  ///< scratch: sums of |diagonal entries|
-  int num_rows_ = 0;           ///< of constraints, of which the solver knows
+  int num_rows_ = 0;  ///< of constraints, of which the solver knows
   int last_ = 0;
-  std::unique_ptr<solve::Hierarchical> copy_;  ///< made when first needed
+  std::unique_ptr<Linearisation> copy_;  ///< made when first needed
 };
 
 }  // namespace bough::step

@@ -65,14 +65,16 @@ function makeChoices(view, holder) {
     });
     return list;
   };
+  if (run.modes.length)
+    select("mode", [[0, "all in turn"]].concat(run.modes.map((text, k) => [k + 1, text])), (v) => view.setMode(Number(v)));
   // Real time where that takes 2 to 20 seconds, else so that the run takes about six.
   const span = run.times[run.times.length - 1] - run.times[0],
     speeds = [0.001, 0.01, 0.1, 0.25, 0.5, 1, 2, 5, 10, 100, 1000];
-  state.speed = span >= 2 && span <= 20 ? 1 : span / 6;
+  state.speed = run.modes.length ? 0.5 : span >= 2 && span <= 20 ? 1 : span / 6;
   if (!speeds.includes(state.speed)) speeds.push(state.speed);
   speeds.sort((a, b) => a - b);
   const speedList = select(
-    run.isStatic ? "speed [1/s]" : "times real time",
+    run.modes.length ? "periods a second" : run.isStatic ? "speed [1/s]" : "times real time",
     speeds.map((s) => [s, number(s, 2)]),
     (v) => (state.speed = Number(v)),
   );

@@ -6,6 +6,7 @@ async function startView() {
     time: first.times[0],
     playing: false,
     loop: true,
+    mode: 0, // whose shape is played; 0: all of the run
     speed: 1,
     scale: 1,
     moving: 0,

@@ -7,6 +7,8 @@ function startTime(view, bar) {
     [run] = view.runs,
     {times} = run,
     end = times[times.length - 1];
+  // What is played: all of it, or one period of one mode.
+  const span = () => (state.mode > 0 ? {from: state.mode - 1, to: Math.min(end, state.mode)} : {from: times[0], to: end});
   // The page around the picture takes longer to be painted than the lines in it: while time goes on it follows ten times
   // a second, and at rest at once.
   let shownAt = -Infinity,
@@ -37,6 +39,12 @@ function startTime(view, bar) {
     view.setTime(rows[Math.min(rows.length - 1, Math.max(0, rowAt(rows, state.time) + n))]);
   };
 
+  view.setMode = function (mode) {
+    state.mode = mode;
+    view.setTime(mode > 0 ? mode - 0.75 : times[0]); // a quarter of a period: where the shape is farthest
+    view.play(mode > 0);
+  };
+
   let lastStamp = 0;
   function tick(stamp) {
     if (!state.playing) return;
@@ -48,13 +56,15 @@ function startTime(view, bar) {
     const most = isCalm ? 2 * calmEvery : 250; // of a page that was hidden, time does not run on
     let time = state.time + (lastStamp ? (Math.min(most, stamp - lastStamp) / 1000) * state.speed : 0);
     lastStamp = stamp;
-    if (time >= end) {
+    const {from, to} = span();
+    if (time >= to || time < from) {
       if (!state.loop) {
-        view.setTime(end);
+        view.setTime(to);
         view.play(false);
         return;
       }
-      time = state.time >= end ? times[0] : end; // the last picture is seen before the first follows
+      // The last picture is seen before the first follows; a period goes on without one.
+      time = state.mode > 0 ? from + Math.max(0, (time - from) % 1) : state.time >= to ? from : to;
     }
     view.setTime(time);
     requestAnimationFrame(tick);
@@ -65,7 +75,7 @@ function startTime(view, bar) {
     bar.showPlaying(on);
     lastStamp = 0;
     if (!on) return view.request();
-    if (!state.loop && state.time >= end) view.setTime(times[0]);
+    if (!state.loop && state.time >= span().to) view.setTime(span().from);
     requestAnimationFrame(tick);
   };
 }

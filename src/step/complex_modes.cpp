@@ -1,0 +1,186 @@
+/// Damped, gyroscopic and circulatory modes.
+#include <algorithm>
+#include <cmath>
+
+#include "bough/step/krylov.hpp"
+#include "bough/step/modes.hpp"
+#include "mode_search.hpp"
+
+namespace bough::step {
+
+namespace {
+
+using Part = Linearisation::Part;
+using Vector = Linearisation::Vector;
+using Complex = std::complex<double>;
+
+constexpr double one_eigenvalue = 1e-7;  ///< relative distance of eigenvalues that are taken for one
+constexpr double two_shapes = 1e-4;      ///< sine of the angle between shapes that are two
+constexpr int most_starts = 8;
+
+class ComplexSearch {
+ public:
+  ComplexSearch(Linearisation& linear, const ModesWanted& wanted)
+      : linear_(linear), wanted_(wanted), n_(linear.size()), motion_(n_), forces_(n_), product_(n_) {}
+
+  ModesFound run() {
+    ModesFound result;
+    result.is_symmetric = false;
+    // The symmetric part tells which motions are rigid and how fast the others are.
+    ModesFound undamped = find_undamped_modes(linear_, {2, 0.0});
+    if (undamped.cause.empty()) {
+      for (Mode& mode : undamped.modes) {
+        if (!mode.is_rigid) slowest_ = slowest_ > 0.0 ? std::min(slowest_, mode.frequency()) : mode.frequency();
+        if (mode.is_rigid && residual_of(linear_, mode, true) < 1e-8) result.modes.push_back(std::move(mode));
+      }
+    }
+    if (!(slowest_ > 0.0)) slowest_ = std::sqrt(linear_.fastest()) > 0.0 ? std::sqrt(linear_.fastest()) : 1.0;
+    scale_ = wanted_.shift > 0.0 ? wanted_.shift : slowest_;
+    // A positive shift keeps away from zero, where rigid motions lie, and from all that decays.
+    shift_ = wanted_.shift > 0.0 || !result.modes.empty() ? scale_ : 0.25 * scale_;
+    if (const auto status = linear_.factor({.damping = shift_, .mass = shift_ * shift_}, solve::Symmetry::general);
+        !status.ok()) {
+      result.cause = "some motion has neither stiffness, damping nor inertia";
+      return result;
+    }
+    for (int pass = 0; pass < most_starts; ++pass) {
+      const std::size_t before = found_.size();
+      if (!search(pass)) {
+        result.cause = "the solution with the stiffness is not finite";
+        return result;
+      }
+      if (pass > 0 && found_.size() == before) break;
+    }
+    keep_wanted();
+    for (Mode& mode : found_) result.modes.push_back(std::move(mode));
+    return result;
+  }
+
+ private:
+  /// (x, z / scale) -> (x', z' / scale), with multipliers in the place of x.
+  bool apply(const Vector& from, Vector& to) {
+    to.resize(2 * n_);
+    for (std::size_t i = 0; i < n_; ++i) motion_[i] = linear_.weights()[i] > 0.0 ? from[i] : 0.0;
+    const std::span<const double> z(from.data() + n_, n_);
+    linear_.multiply(Part::damping, motion_, forces_);
+    linear_.multiply(Part::mass, motion_, product_);
+    for (std::size_t i = 0; i < n_; ++i) forces_[i] += shift_ * product_[i];
+    linear_.multiply(Part::mass, z, product_);
+    for (std::size_t i = 0; i < n_; ++i) forces_[i] = -(forces_[i] + scale_ * product_[i]);
+    if (!linear_.solve(forces_, std::span(to.data(), n_))) return false;
+    for (std::size_t i = 0; i < n_; ++i)
+      to[n_ + i] = linear_.weights()[i] > 0.0 ? (motion_[i] + shift_ * to[i]) / scale_ : 0.0;
+    return true;
+  }
+
+  Complex eigenvalue_of(const Krylov::Ritz& ritz) const { return shift_ + 1.0 / ritz.value; }
+  /// Zeros of rigid motions are told by these motions, with multiplicities that the space does not have.
+  bool is_zero(const Complex& lambda) const { return std::abs(lambda) < 1e-5 * slowest_; }
+
+  bool search(int pass) {
+    Krylov space([this](const Vector& x, Vector& y) { return apply(x, y); },
+                 [this](const Vector& x, Vector& y) {
+                   y.resize(2 * n_);
+                   for (std::size_t i = 0; i < 2 * n_; ++i) y[i] = linear_.weights()[i % n_] * x[i];
+                   return true;
+                 });
+    Vector start = random_vector(linear_, 1000U + static_cast<unsigned>(pass));
+    const Vector rates = random_vector(linear_, 2000U + static_cast<unsigned>(pass));
+    start.insert(start.end(), rates.begin(), rates.end());
+    Vector in_range;
+    if (!apply(start, in_range)) return false;
+    if (!space.begin(in_range)) return true;
+    const int most = 16 * (wanted_.count + 10);
+    std::vector<Krylov::Ritz> ritz;
+    for (int size = 3 * wanted_.count + 12;; size += 8) {
+      if (!space.extend(std::min(size, most))) return false;
+      ritz = space.eigenvalues(false);
+      if (space.is_invariant() || size >= most || is_settled(ritz)) break;
+    }
+    for (const Krylov::Ritz& one : ritz) {
+      if (one.residual > converged * std::abs(one.value)) continue;
+      const Complex lambda = eigenvalue_of(one);
+      if (lambda.imag() < -1e-12 * std::abs(lambda) || is_zero(lambda)) continue;
+      take(lambda, space.vector_of(one));
+    }
+    return true;
+  }
+
+  bool is_settled(const std::vector<Krylov::Ritz>& ritz) const {
+    int vibrations = 0;
+    for (const Krylov::Ritz& one : ritz) {
+      if (one.residual > converged * std::abs(one.value)) return false;
+      const Complex lambda = eigenvalue_of(one);
+      if (!is_zero(lambda) && lambda.imag() > 0.0 && ++vibrations > wanted_.count) return true;
+    }
+    return false;
+  }
+
+  /// Adds a mode that none of those found with the same eigenvalue is, alone or together.
+  void take(Complex lambda, std::vector<Complex> shape) {
+    if (std::abs(lambda.imag()) <= 1e-9 * std::abs(lambda)) lambda = lambda.real();
+    shape.resize(n_);
+    normalise(shape);
+    std::vector<Complex> rest = shape;
+    std::vector<std::vector<Complex>> orthogonal;
+    for (const Mode& other : found_)
+      if (std::abs(other.eigenvalue - lambda) <= one_eigenvalue * std::abs(lambda)) orthogonal.push_back(other.shape);
+    for (std::size_t k = 0; k < orthogonal.size(); ++k) {
+      for (std::size_t j = 0; j < k; ++j) remove(orthogonal[j], orthogonal[k]);
+      normalise(orthogonal[k]);
+      remove(orthogonal[k], rest);
+    }
+    if (!orthogonal.empty() && std::sqrt(std::abs(product(rest, rest))) < two_shapes) return;
+    Mode mode;
+    mode.eigenvalue = lambda;
+    mode.shape = std::move(shape);
+    mode.residual = residual_of(linear_, mode, true);
+    found_.push_back(std::move(mode));
+  }
+  Complex product(const std::vector<Complex>& x, const std::vector<Complex>& y) const {
+    Complex sum = 0.0;
+    for (std::size_t i = 0; i < n_; ++i) sum += linear_.weights()[i] * std::conj(x[i]) * y[i];
+    return sum;
+  }
+  void remove(const std::vector<Complex>& unit, std::vector<Complex>& from) const {
+    const Complex along = product(unit, from);
+    for (std::size_t i = 0; i < n_; ++i) from[i] -= along * unit[i];
+  }
+  void normalise(std::vector<Complex>& x) const {
+    const double length = std::sqrt(std::abs(product(x, x)));
+    if (length > 0.0)
+      for (Complex& value : x) value /= length;
+  }
+
+  /// The vibrations wanted, nearest to zero or to the shift, and what decays or grows in between without vibrating.
+  void keep_wanted() {
+    const auto away = [this](const Mode& mode) { return std::abs(std::abs(mode.eigenvalue) - wanted_.shift); };
+    std::stable_sort(found_.begin(), found_.end(), [&](const Mode& a, const Mode& b) { return away(a) < away(b); });
+    int vibrations = 0;
+    double last = 0.0;
+    std::size_t kept = 0;
+    for (; kept < found_.size(); ++kept) {
+      if (vibrations >= wanted_.count && away(found_[kept]) > (1.0 + one_eigenvalue) * last) break;
+      last = away(found_[kept]);
+      if (found_[kept].vibrates()) ++vibrations;
+    }
+    found_.resize(kept);
+    std::stable_sort(found_.begin(), found_.end(),
+                     [](const Mode& a, const Mode& b) { return a.frequency() < b.frequency(); });
+  }
+
+  Linearisation& linear_;
+  const ModesWanted wanted_;
+  const std::size_t n_;
+  double slowest_ = 0.0, scale_ = 1.0, shift_ = 0.0;  ///< [1/s]
+  Vector motion_, forces_, product_;
+  std::vector<Mode> found_;
+};
+
+}  // namespace
+
+ModesFound find_complex_modes(Linearisation& linear, const ModesWanted& wanted) {
+  return ComplexSearch(linear, wanted).run();
+}
+
+}  // namespace bough::step
