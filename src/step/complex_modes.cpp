@@ -14,8 +14,9 @@ using Part = Linearisation::Part;
 using Vector = Linearisation::Vector;
 using Complex = std::complex<double>;
 
-constexpr double one_eigenvalue = 1e-7;  ///< relative distance of eigenvalues that are taken for one
-constexpr double two_shapes = 1e-4;      ///< sine of the angle between shapes that are two
+constexpr double one_eigenvalue = 1e-3;          ///< relative distance of eigenvalues that may be one
+constexpr double two_shapes = 1e-3;              ///< sine of the angle between shapes that are two
+constexpr double one_frequency_of_pairs = 1e-7;  ///< the same of magnitudes of modes that are listed together
 constexpr int most_starts = 8;
 
 class ComplexSearch {
@@ -116,26 +117,31 @@ class ComplexSearch {
     return false;
   }
 
-  /// Adds a mode that none of those found with the same eigenvalue is, alone or together.
+  /// Adds a mode that none of those found next to its eigenvalue is, alone or together. Where a space has no more
+  /// vectors than round-off, it tells what it has again, less exactly: the one that meets the equations best stays.
   void take(Complex lambda, std::vector<Complex> shape) {
     if (std::abs(lambda.imag()) <= 1e-9 * std::abs(lambda)) lambda = lambda.real();
     shape.resize(n_);
     normalise(shape);
-    std::vector<Complex> rest = shape;
+    Mode mode{lambda, shape};
+    mode.residual = residual_of(linear_, mode, true);
     std::vector<std::vector<Complex>> orthogonal;
-    for (const Mode& other : found_)
-      if (std::abs(other.eigenvalue - lambda) <= one_eigenvalue * std::abs(lambda)) orthogonal.push_back(other.shape);
+    Mode* nearest = nullptr;
+    for (Mode& other : found_) {
+      const double apart = std::abs(other.eigenvalue - lambda);
+      if (apart > one_eigenvalue * std::abs(lambda)) continue;
+      orthogonal.push_back(other.shape);
+      if (nearest == nullptr || apart < std::abs(nearest->eigenvalue - lambda)) nearest = &other;
+    }
     for (std::size_t k = 0; k < orthogonal.size(); ++k) {
       for (std::size_t j = 0; j < k; ++j) remove(orthogonal[j], orthogonal[k]);
       normalise(orthogonal[k]);
-      remove(orthogonal[k], rest);
+      remove(orthogonal[k], shape);
     }
-    if (!orthogonal.empty() && std::sqrt(std::abs(product(rest, rest))) < two_shapes) return;
-    Mode mode;
-    mode.eigenvalue = lambda;
-    mode.shape = std::move(shape);
-    mode.residual = residual_of(linear_, mode, true);
-    found_.push_back(std::move(mode));
+    if (nearest == nullptr || std::sqrt(std::abs(product(shape, shape))) >= two_shapes)
+      found_.push_back(std::move(mode));
+    else if (mode.residual < nearest->residual)
+      *nearest = std::move(mode);
   }
   Complex product(const std::vector<Complex>& x, const std::vector<Complex>& y) const {
     Complex sum = 0.0;
@@ -160,7 +166,7 @@ class ComplexSearch {
     double last = 0.0;
     std::size_t kept = 0;
     for (; kept < found_.size(); ++kept) {
-      if (vibrations >= wanted_.count && away(found_[kept]) > (1.0 + one_eigenvalue) * last) break;
+      if (vibrations >= wanted_.count && away(found_[kept]) > (1.0 + one_frequency_of_pairs) * last) break;
       last = away(found_[kept]);
       if (found_[kept].vibrates()) ++vibrations;
     }
