@@ -17,12 +17,19 @@ using Complex = std::complex<double>;
 constexpr double one_eigenvalue = 1e-3;          ///< relative distance of eigenvalues that may be one
 constexpr double two_shapes = 1e-3;              ///< sine of the angle between shapes that are two
 constexpr double one_frequency_of_pairs = 1e-7;  ///< the same of magnitudes of modes that are listed together
+constexpr double meets_equations = 1e-6;         ///< bound of Mode::residual
 constexpr int most_starts = 8;
 
 class ComplexSearch {
  public:
   ComplexSearch(Linearisation& linear, const ModesWanted& wanted)
-      : linear_(linear), wanted_(wanted), n_(linear.size()), motion_(n_), forces_(n_), product_(n_) {}
+      : linear_(linear),
+        wanted_(wanted),
+        n_(linear.size()),
+        weights_(linear.weights()),
+        motion_(n_),
+        forces_(n_),
+        product_(n_) {}
 
   ModesFound run() {
     ModesFound result;
@@ -44,6 +51,7 @@ class ComplexSearch {
       result.cause = "some motion has neither stiffness, damping nor inertia";
       return result;
     }
+    weigh_signals();
     for (int pass = 0; pass < most_starts; ++pass) {
       const std::size_t before = found_.size();
       if (!search(pass)) {
@@ -58,6 +66,25 @@ class ComplexSearch {
   }
 
  private:
+  /// Signals have units of their own. One is as large as motions of the size of the structure make it by its equation,
+  /// and those of its inputs that come before it.
+  void weigh_signals() {
+    const std::vector<std::size_t>& unknowns = linear_.system().places().signals();
+    if (unknowns.empty()) return;
+    Vector sizes(n_, 0.0);
+    for (std::size_t i = 0; i < n_; ++i)
+      if (weights_[i] > 0.0) sizes[i] = 1.0 / std::sqrt(weights_[i]);
+    for (const std::size_t unknown : unknowns) sizes[unknown] = 0.0;
+    for (std::size_t k = 0; k < unknowns.size(); ++k) {
+      linear_.multiply_magnitudes(Part::stiffness, sizes, forces_);
+      linear_.multiply_magnitudes(Part::damping, sizes, product_);
+      const double sum = forces_[unknowns[k]] + scale_ * product_[unknowns[k]];
+      const double own = linear_.system().plan().signals[k].is_state() ? scale_ : 1.0;
+      sizes[unknowns[k]] = sum > 0.0 ? sum / own : 1.0;
+      weights_[unknowns[k]] = 1.0 / (sizes[unknowns[k]] * sizes[unknowns[k]]);
+    }
+  }
+
   /// (x, z / scale) -> (x', z' / scale), with multipliers in the place of x.
   bool apply(const Vector& from, Vector& to) {
     to.resize(2 * n_);
@@ -82,12 +109,14 @@ class ComplexSearch {
     Krylov space([this](const Vector& x, Vector& y) { return apply(x, y); },
                  [this](const Vector& x, Vector& y) {
                    y.resize(2 * n_);
-                   for (std::size_t i = 0; i < 2 * n_; ++i) y[i] = linear_.weights()[i % n_] * x[i];
+                   for (std::size_t i = 0; i < 2 * n_; ++i) y[i] = weights_[i % n_] * x[i];
                    return true;
                  });
     Vector start = random_vector(linear_, 1000U + static_cast<unsigned>(pass));
     const Vector rates = random_vector(linear_, 2000U + static_cast<unsigned>(pass));
     start.insert(start.end(), rates.begin(), rates.end());
+    for (std::size_t i = 0; i < 2 * n_; ++i)
+      if (weights_[i % n_] > 0.0) start[i] *= std::sqrt(linear_.weights()[i % n_] / weights_[i % n_]);
     Vector in_range;
     if (!apply(start, in_range)) return false;
     if (!space.begin(in_range)) return true;
@@ -125,6 +154,7 @@ class ComplexSearch {
     normalise(shape);
     Mode mode{lambda, shape};
     mode.residual = residual_of(linear_, mode, true);
+    if (!(mode.residual < meets_equations)) return;  // of vectors that are round-off
     std::vector<std::vector<Complex>> orthogonal;
     Mode* nearest = nullptr;
     for (Mode& other : found_) {
@@ -145,7 +175,7 @@ class ComplexSearch {
   }
   Complex product(const std::vector<Complex>& x, const std::vector<Complex>& y) const {
     Complex sum = 0.0;
-    for (std::size_t i = 0; i < n_; ++i) sum += linear_.weights()[i] * std::conj(x[i]) * y[i];
+    for (std::size_t i = 0; i < n_; ++i) sum += weights_[i] * std::conj(x[i]) * y[i];
     return sum;
   }
   void remove(const std::vector<Complex>& unit, std::vector<Complex>& from) const {
@@ -178,6 +208,7 @@ class ComplexSearch {
   Linearisation& linear_;
   const ModesWanted wanted_;
   const std::size_t n_;
+  Vector weights_;                                    ///< those of the equations, but for signals
   double slowest_ = 0.0, scale_ = 1.0, shift_ = 0.0;  ///< [1/s]
   Vector motion_, forces_, product_;
   std::vector<Mode> found_;
