@@ -14,14 +14,22 @@ using Part = Linearisation::Part;
 using Vector = Linearisation::Vector;
 using Complex = std::complex<double>;
 
-constexpr double one_eigenvalue = 1e-7;  ///< relative distance of eigenvalues that are taken for one
-constexpr double two_shapes = 1e-4;      ///< sine of the angle between shapes that are two
+constexpr double one_eigenvalue = 1e-3;          ///< relative distance of eigenvalues that may be one
+constexpr double two_shapes = 1e-3;              ///< sine of the angle between shapes that are two
+constexpr double one_frequency_of_pairs = 1e-7;  ///< the same of magnitudes of modes that are listed together
+constexpr double meets_equations = 1e-6;         ///< bound of Mode::residual
 constexpr int most_starts = 8;
 
 class ComplexSearch {
  public:
   ComplexSearch(Linearisation& linear, const ModesWanted& wanted)
-      : linear_(linear), wanted_(wanted), n_(linear.size()), motion_(n_), forces_(n_), product_(n_) {}
+      : linear_(linear),
+        wanted_(wanted),
+        n_(linear.size()),
+        weights_(linear.weights()),
+        motion_(n_),
+        forces_(n_),
+        product_(n_) {}
 
   ModesFound run() {
     ModesFound result;
@@ -43,6 +51,7 @@ class ComplexSearch {
       result.cause = "some motion has neither stiffness, damping nor inertia";
       return result;
     }
+    weigh_signals();
     for (int pass = 0; pass < most_starts; ++pass) {
       const std::size_t before = found_.size();
       if (!search(pass)) {
@@ -57,6 +66,25 @@ class ComplexSearch {
   }
 
  private:
+  /// Signals have units of their own. One is as large as motions of the size of the structure make it by its equation,
+  /// and those of its inputs that come before it.
+  void weigh_signals() {
+    const std::vector<std::size_t>& unknowns = linear_.system().places().signals();
+    if (unknowns.empty()) return;
+    Vector sizes(n_, 0.0);
+    for (std::size_t i = 0; i < n_; ++i)
+      if (weights_[i] > 0.0) sizes[i] = 1.0 / std::sqrt(weights_[i]);
+    for (const std::size_t unknown : unknowns) sizes[unknown] = 0.0;
+    for (std::size_t k = 0; k < unknowns.size(); ++k) {
+      linear_.multiply_magnitudes(Part::stiffness, sizes, forces_);
+      linear_.multiply_magnitudes(Part::damping, sizes, product_);
+      const double sum = forces_[unknowns[k]] + scale_ * product_[unknowns[k]];
+      const double own = linear_.system().plan().signals[k].is_state() ? scale_ : 1.0;
+      sizes[unknowns[k]] = sum > 0.0 ? sum / own : 1.0;
+      weights_[unknowns[k]] = 1.0 / (sizes[unknowns[k]] * sizes[unknowns[k]]);
+    }
+  }
+
   /// (x, z / scale) -> (x', z' / scale), with multipliers in the place of x.
   bool apply(const Vector& from, Vector& to) {
     to.resize(2 * n_);
@@ -81,12 +109,14 @@ class ComplexSearch {
     Krylov space([this](const Vector& x, Vector& y) { return apply(x, y); },
                  [this](const Vector& x, Vector& y) {
                    y.resize(2 * n_);
-                   for (std::size_t i = 0; i < 2 * n_; ++i) y[i] = linear_.weights()[i % n_] * x[i];
+                   for (std::size_t i = 0; i < 2 * n_; ++i) y[i] = weights_[i % n_] * x[i];
                    return true;
                  });
     Vector start = random_vector(linear_, 1000U + static_cast<unsigned>(pass));
     const Vector rates = random_vector(linear_, 2000U + static_cast<unsigned>(pass));
     start.insert(start.end(), rates.begin(), rates.end());
+    for (std::size_t i = 0; i < 2 * n_; ++i)
+      if (weights_[i % n_] > 0.0) start[i] *= std::sqrt(linear_.weights()[i % n_] / weights_[i % n_]);
     Vector in_range;
     if (!apply(start, in_range)) return false;
     if (!space.begin(in_range)) return true;
@@ -116,30 +146,36 @@ class ComplexSearch {
     return false;
   }
 
-  /// Adds a mode that none of those found with the same eigenvalue is, alone or together.
+  /// Adds a mode that none of those found next to its eigenvalue is, alone or together. Where a space has no more
+  /// vectors than round-off, it tells what it has again, less exactly: the one that meets the equations best stays.
   void take(Complex lambda, std::vector<Complex> shape) {
     if (std::abs(lambda.imag()) <= 1e-9 * std::abs(lambda)) lambda = lambda.real();
     shape.resize(n_);
     normalise(shape);
-    std::vector<Complex> rest = shape;
+    Mode mode{lambda, shape};
+    mode.residual = residual_of(linear_, mode, true);
+    if (!(mode.residual < meets_equations)) return;  // of vectors that are round-off
     std::vector<std::vector<Complex>> orthogonal;
-    for (const Mode& other : found_)
-      if (std::abs(other.eigenvalue - lambda) <= one_eigenvalue * std::abs(lambda)) orthogonal.push_back(other.shape);
+    Mode* nearest = nullptr;
+    for (Mode& other : found_) {
+      const double apart = std::abs(other.eigenvalue - lambda);
+      if (apart > one_eigenvalue * std::abs(lambda)) continue;
+      orthogonal.push_back(other.shape);
+      if (nearest == nullptr || apart < std::abs(nearest->eigenvalue - lambda)) nearest = &other;
+    }
     for (std::size_t k = 0; k < orthogonal.size(); ++k) {
       for (std::size_t j = 0; j < k; ++j) remove(orthogonal[j], orthogonal[k]);
       normalise(orthogonal[k]);
-      remove(orthogonal[k], rest);
+      remove(orthogonal[k], shape);
     }
-    if (!orthogonal.empty() && std::sqrt(std::abs(product(rest, rest))) < two_shapes) return;
-    Mode mode;
-    mode.eigenvalue = lambda;
-    mode.shape = std::move(shape);
-    mode.residual = residual_of(linear_, mode, true);
-    found_.push_back(std::move(mode));
+    if (nearest == nullptr || std::sqrt(std::abs(product(shape, shape))) >= two_shapes)
+      found_.push_back(std::move(mode));
+    else if (mode.residual < nearest->residual)
+      *nearest = std::move(mode);
   }
   Complex product(const std::vector<Complex>& x, const std::vector<Complex>& y) const {
     Complex sum = 0.0;
-    for (std::size_t i = 0; i < n_; ++i) sum += linear_.weights()[i] * std::conj(x[i]) * y[i];
+    for (std::size_t i = 0; i < n_; ++i) sum += weights_[i] * std::conj(x[i]) * y[i];
     return sum;
   }
   void remove(const std::vector<Complex>& unit, std::vector<Complex>& from) const {
@@ -160,7 +196,7 @@ class ComplexSearch {
     double last = 0.0;
     std::size_t kept = 0;
     for (; kept < found_.size(); ++kept) {
-      if (vibrations >= wanted_.count && away(found_[kept]) > (1.0 + one_eigenvalue) * last) break;
+      if (vibrations >= wanted_.count && away(found_[kept]) > (1.0 + one_frequency_of_pairs) * last) break;
       last = away(found_[kept]);
       if (found_[kept].vibrates()) ++vibrations;
     }
@@ -172,6 +208,7 @@ class ComplexSearch {
   Linearisation& linear_;
   const ModesWanted wanted_;
   const std::size_t n_;
+  Vector weights_;                                    ///< those of the equations, but for signals
   double slowest_ = 0.0, scale_ = 1.0, shift_ = 0.0;  ///< [1/s]
   Vector motion_, forces_, product_;
   std::vector<Mode> found_;

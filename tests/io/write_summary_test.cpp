@@ -101,6 +101,26 @@ TEST(Summary, leaves_out_checks_that_were_not_made_and_values_that_were_not_reac
   EXPECT_STREQ(back.expected[1].verdict(), "holds");
 }
 
+TEST(Summary, tables_come_back_with_their_units_numbers_and_texts) {
+  const ScratchDirectory scratch;
+  records::Summary summary = sample_summary();
+  summary.tables = {{"modes",
+                     "What it shows.",
+                     {{"mode", "", true}, {"frequency", "Hz", true}, {"what"}},
+                     {{1.0, 0.1, std::string("'a, \"b\"' bends")}, {2.0, 1e300, std::string()}}}};
+  write_file(scratch / "summary.json", summary_text(summary, "1"));
+  const SummaryFile back = read_summary(scratch / "summary.json");
+  ASSERT_EQ(back.tables.size(), 1U);
+  const records::Table& table = back.tables.front();
+  EXPECT_EQ(table.name, "modes");
+  EXPECT_EQ(table.about, "What it shows.");
+  ASSERT_EQ(table.columns.size(), 3U);
+  EXPECT_EQ(table.columns[1].unit, "Hz");
+  EXPECT_TRUE(table.columns[1].is_brief);
+  EXPECT_FALSE(table.columns[2].is_brief);
+  EXPECT_EQ(table.rows, summary.tables.front().rows);
+}
+
 TEST(Summary, a_path_without_limit_points_lists_none_and_other_runs_have_no_list) {
   records::Summary summary = sample_summary();
   EXPECT_EQ(parsed(summary_text(summary, "1")).find("limit_points"), nullptr);

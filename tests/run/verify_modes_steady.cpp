@@ -173,6 +173,15 @@ TEST(ModesInMotion, a_controlled_mass_has_the_poles_of_its_loop) {
   EXPECT_NEAR(sum, -10.0, 1e-8);
 }
 
+/// Oil of 1.4e9 Pa beside places of a metre: the pressure is a state, and nothing damps.
+TEST(ModesInMotion, an_undamped_oscillator_whose_state_is_a_pressure_is_not_damped) {
+  const ModesSeen seen(
+      support::gallery("cylinder", {"/analysis={\"kind\": \"modes\", \"about\": \"start\"}", "/expected=[]"}));
+  ASSERT_EQ(seen.count_of("vibration") + seen.count_of("growing vibration"), 1U);
+  EXPECT_NEAR(seen.frequencies().at(0), 2.0 * 3.141592653589793 / 0.07509842836890551, 1e-9 * seen.frequencies().at(0));
+  EXPECT_LT(std::abs(seen.number(seen.count() - 1, "damping_ratio")), 1e-9);
+}
+
 /// Beck's column: a load that follows its end. Without shear and rotary inertia the first two frequencies meet at P =
 /// 20.0509536 EI / L^2.
 TEST(ModesInMotion, a_column_under_a_load_that_follows_flutters_as_becks) {
