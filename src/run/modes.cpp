@@ -223,6 +223,10 @@ records::Table Modes::table_of(const Linearisation& linear, std::vector<step::Mo
 }
 
 void Modes::tell_completeness(const step::ModesFound& found) {
+  if (found.inexact > 0)
+    missing_ = std::to_string(found.inexact) +
+               " more were found that do not meet the equations to 1e-6, and are not listed: ask for fewer modes, or "
+               "for those near a shift";
   if (!found.missing) {
     not_proved_ = "that no mode is missing among those listed is not proved";
   } else if (*found.missing > 0) {

@@ -18,6 +18,7 @@ constexpr double one_eigenvalue = 1e-3;          ///< relative distance of eigen
 constexpr double two_shapes = 1e-3;              ///< sine of the angle between shapes that are two
 constexpr double one_frequency_of_pairs = 1e-7;  ///< the same of magnitudes of modes that are listed together
 constexpr double meets_equations = 1e-6;         ///< bound of Mode::residual
+constexpr double nearly_meets_equations = 1e-3;  ///< such a mode is none, but there may be one
 constexpr int most_starts = 8;
 
 class ComplexSearch {
@@ -60,6 +61,8 @@ class ComplexSearch {
       }
       if (pass > 0 && found_.size() == before) break;
     }
+    for (std::size_t k = 0; k < inexact_.size(); ++k)
+      if (is_new(k)) ++result.inexact;
     keep_wanted();
     for (Mode& mode : found_) result.modes.push_back(std::move(mode));
     return result;
@@ -154,7 +157,10 @@ class ComplexSearch {
     normalise(shape);
     Mode mode{lambda, shape};
     mode.residual = residual_of(linear_, mode, true);
-    if (!(mode.residual < meets_equations)) return;  // of vectors that are round-off
+    if (!(mode.residual < meets_equations)) {  // the others are of vectors that are round-off
+      if (mode.residual < nearly_meets_equations) inexact_.push_back(lambda);
+      return;
+    }
     std::vector<std::vector<Complex>> orthogonal;
     Mode* nearest = nullptr;
     for (Mode& other : found_) {
@@ -172,6 +178,12 @@ class ComplexSearch {
       found_.push_back(std::move(mode));
     else if (mode.residual < nearest->residual)
       *nearest = std::move(mode);
+  }
+  /// Whether no mode that was found, and no inexact one before, is near an inexact one.
+  bool is_new(std::size_t k) const {
+    const auto is_near = [&](Complex other) { return std::abs(other - inexact_[k]) < 1e-2 * std::abs(inexact_[k]); };
+    return std::none_of(found_.begin(), found_.end(), [&](const Mode& mode) { return is_near(mode.eigenvalue); }) &&
+           std::none_of(inexact_.begin(), inexact_.begin() + static_cast<std::ptrdiff_t>(k), is_near);
   }
   Complex product(const std::vector<Complex>& x, const std::vector<Complex>& y) const {
     Complex sum = 0.0;
@@ -212,6 +224,7 @@ class ComplexSearch {
   double slowest_ = 0.0, scale_ = 1.0, shift_ = 0.0;  ///< [1/s]
   Vector motion_, forces_, product_;
   std::vector<Mode> found_;
+  std::vector<Complex> inexact_;
 };
 
 }  // namespace
