@@ -54,7 +54,7 @@ class Search {
 
  private:
   static constexpr int most_passes = 64;
-  static constexpr std::size_t most_rigid = 100;
+  static constexpr std::size_t most_rigid = 100, most_of_a_body = 7;
 
   static ModesFound failed(const std::string& cause) {
     ModesFound result;
@@ -110,7 +110,7 @@ class Search {
     constexpr int most_iterations = 16, purging = 3;
     Vector next;
     for (bool is_rigid = true; is_rigid;) {
-      if (rigid_.size() > most_rigid)
+      if (rigid_.size() > most_rigid || (rigid_.size() == most_of_a_body && !are_few()))
         return fail("more than " + std::to_string(most_rigid) +
                     " motions have no resistance, as where a mechanism is not yet loaded by what gives it its shape");
       Krylov space = make_space();
@@ -139,6 +139,13 @@ class Search {
         return shift_beside(last);
     }
     return true;
+  }
+  /// Whether the motions without resistance are no more than can be found one after the other: an inertia counts all
+  /// that are slower than the shift is large.
+  bool are_few() {
+    if (!(sigma_ < 0.0) || !factor(-sigma_)) return true;
+    const bool are = linear_.num_negative() <= static_cast<int>(most_rigid);
+    return factor(sigma_) && are;
   }
   /// Takes a shift of the order of the slowest vibration: what a rigid motion still has of a vibration, c, changes its
   /// eigenvalue by c^2 omega^2 / shift.
