@@ -61,9 +61,9 @@ class ComplexSearch {
       }
       if (pass > 0 && found_.size() == before) break;
     }
-    for (std::size_t k = 0; k < inexact_.size(); ++k)
-      if (is_new(k)) ++result.inexact;
     keep_wanted();
+    for (std::size_t k = 0; k < inexact_.size(); ++k)
+      if (!found_.empty() && std::abs(inexact_[k]) < found_.back().frequency() && is_new(k)) ++result.inexact;
     for (Mode& mode : found_) result.modes.push_back(std::move(mode));
     return result;
   }
@@ -179,7 +179,7 @@ class ComplexSearch {
     else if (mode.residual < nearest->residual)
       *nearest = std::move(mode);
   }
-  /// Whether no mode that was found, and no inexact one before, is near an inexact one.
+  /// Whether no mode that is listed, and no inexact one before, is near an inexact one.
   bool is_new(std::size_t k) const {
     const auto is_near = [&](Complex other) { return std::abs(other - inexact_[k]) < 1e-2 * std::abs(inexact_[k]); };
     return std::none_of(found_.begin(), found_.end(), [&](const Mode& mode) { return is_near(mode.eigenvalue); }) &&

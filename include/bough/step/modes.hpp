@@ -33,7 +33,7 @@ struct ModesFound {
   /// How many modes that are not listed lie below the last one, or between the first and the last where there is a
   /// shift, by the inertia of factors; none: it is not known.
   std::optional<int> missing;
-  /// Of complex modes: how many were found that meet the equations to 1e-3 only, and are not listed.
+  /// Of complex modes: how many below the last one were found that meet the equations to 1e-3 only, and are not listed.
   int inexact = 0;
 };
 
