@@ -108,7 +108,7 @@ with tempfile.TemporaryDirectory() as place:
     expect("notes in a case", [*verbs["sweep a"], "--out", "sweep_a.out", "--replace"], 2, "notes.txt")
     pathlib.Path("sweep_a.out/2/notes.txt").unlink()
     # Folders that are being written.
-    slow = ["--set", "/analysis/step_size=1e-6", "--set", "/analysis/end_time=5"]
+    slow = ["--set", "/analysis/step_size=1e-6", "--set", "/analysis/end_time=50"]  # minutes: longer than all others take beside it
     for name in ["sweep a", "batch a", "run b"]:
         out = pathlib.Path("busy")
         busy = subprocess.Popen([program, *verbs[name], "--out", "busy", *slow], stdout=subprocess.DEVNULL,
