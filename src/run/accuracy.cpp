@@ -9,6 +9,7 @@
 #include "bough/run/estimate.hpp"
 #include "bough/run/memory_run.hpp"
 #include "bough/scene/analysis_kinds.hpp"
+#include "error_doubts.hpp"
 #include "twin_scenes.hpp"
 #include "twins.hpp"
 
@@ -22,9 +23,9 @@ using records::RunStatus;
 namespace {
 
 constexpr int most_trials = 12;
-constexpr int most_unresolved =
-    3;                          ///< trials whose errors have no order: shorter steps will not help, or cost too much
-constexpr double margin = 0.7;  ///< part of the allowed error that is aimed at: predictions are that good
+/// Trials whose errors have no order: shorter steps will not help, or cost too much.
+constexpr int most_unresolved = 3;
+constexpr double margin = 0.7;        ///< part of the allowed error that is aimed at: predictions are that good
 constexpr double foreseen = 1.0 / 8;  ///< shortest step, over that of a trial, which its errors foretell
 constexpr double shortest = 1.0 / 16;
 constexpr double most_steps = 1e7;
@@ -67,20 +68,19 @@ class Judge {
   }
   /// allowed: by all kinds of errors together.
   void see(Need& need, const ErrorOf& e, const ErrorPart& part, double allowed) const {
-    constexpr double noise = 100.0;     // roundings in the range of what is a number
-    constexpr double agreement = 0.25;  // members that differ by less agree, whatever their order (error_doubts.cpp)
+    constexpr double noise = 100.0;  // roundings in the range of what is a number
     allowed *= part_;
     // A column that is zero but for round-off has a range of that size.
     const bool is_noise = part.state == ErrorState::round_off && e.range <= noise * part.largest && e.range > 0.0;
     if (part.state == ErrorState::not_measured || !(allowed > 0.0) || is_noise) return;
-    const bool agrees = part.state == ErrorState::not_resolved && part.spread <= agreement * allowed;
+    const bool is_known = part.is_known() || agrees(part, allowed);
     const double share = part.largest / allowed;
-    if (share > need.share || (need.is_known && !part.is_known() && !agrees)) {
+    if (share > need.share || (need.is_known && !is_known)) {
       need.of = e.name;
       need.is_left = part.state == ErrorState::round_off;
     }
     need.share = std::max(need.share, share);
-    if (!part.is_known() && !agrees) need.is_known = false;
+    need.is_known = need.is_known && is_known;
     if (part.is_known() && part.state != ErrorState::round_off && part.theoretical_order > 0.0 && share > 1.0)
       need.factor = std::max(need.factor, std::pow(share / margin, 1.0 / part.theoretical_order));
   }
@@ -206,36 +206,12 @@ class Search {
     return summary;
   }
 
-  /// Adds what was reached to the summary before the recorder gets it.
-  class WithVerdict final : public records::Recorder {
-   public:
-    WithVerdict(records::Recorder& to, const Search& search) : to_(to), search_(search) {}
-    void begin(const records::HistoryHeader& header) override { to_.begin(header); }
-    void row(const records::HistoryRow& row) override { to_.row(row); }
-    void motion(const records::MotionFrame& frame) override { to_.motion(frame); }
-    void parts(const records::MotionParts& parts) override { to_.parts(parts); }
-    void end(const records::Summary& summary) override {
-      verdict = summary;
-      search_.judge(verdict);
-      to_.end(verdict);
-    }
-    bool keeps_states() const override { return to_.keeps_states(); }
-    void state(const records::StoredState& state) override { to_.state(state); }
-
-    records::Summary verdict;
-
-   private:
-    records::Recorder& to_;
-    const Search& search_;
-  };
-
   records::Summary make_run() {
     SimulateOptions options = options_;
     options.checks_estimate = false;
-    WithVerdict recorder(recorder_, *this);
     const scene::Scene scene = scene_now(false);
-    (void)simulate_with_twins(scene, options, recorder, progress_);
-    return std::move(recorder.verdict);
+    return simulate_with_twins(scene, options, recorder_, progress_,
+                               [this](records::Summary& summary) { judge(summary); });
   }
 
   void judge(records::Summary& summary) const {

@@ -29,17 +29,6 @@ struct Words {
 };
 constexpr Words in_time{"in time", "take smaller steps"}, of_mesh{"of the mesh", "take more elements"};
 
-/// Whether a run is right to a bound though its twins do not differ as errors of the theoretical order do at all times. A
-/// run that differs from its next twin by d, which differs from the one after it by D, has the error d / (D/d - 1) if the
-/// largest differences shrink as they do; twice that is allowed for, and D/d no more than second order gives. Where d is
-/// small beside the bound the order does not matter: of first order the error is d, and of order 1/2 it is 2.4 d.
-bool agrees(const ErrorPart& part, double bound) {
-  constexpr double small = 0.25, most_ratio = 4.0, least_ratio = 2.0, safety = 2.0;
-  if (part.state != ErrorState::not_resolved) return false;
-  if (part.largest <= small * bound && part.spread <= bound) return true;
-  const double ratio = part.largest > 0.0 ? std::min(part.spread / part.largest, most_ratio) : 0.0;
-  return ratio >= least_ratio && safety * part.largest <= (ratio - 1.0) * bound;
-}
 bool is_told(const ErrorPart& part, double bound) {
   return part.is_known() || agrees(part, bound) || (part.state == ErrorState::not_resolved && part.largest > bound);
 }
@@ -103,6 +92,14 @@ std::string left_out(const records::MeasuredErrors& errors, ErrorPart ErrorOf::*
 }
 
 }  // namespace
+
+bool agrees(const ErrorPart& part, double bound) {
+  constexpr double small = 0.25, most_ratio = 4.0, least_ratio = 2.0, safety = 2.0;
+  if (part.state != ErrorState::not_resolved || part.largest > bound) return false;
+  if (part.largest <= small * bound && part.spread <= bound) return true;
+  const double ratio = part.largest > 0.0 ? std::min(part.spread / part.largest, most_ratio) : 0.0;
+  return ratio >= least_ratio && safety * part.largest <= (ratio - 1.0) * bound;
+}
 
 void judge_errors(const records::MeasuredErrors& errors, const scene::ErrorsWanted& wanted, records::Summary& summary) {
   const TrustLimits limits;

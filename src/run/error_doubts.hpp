@@ -4,6 +4,12 @@
 
 namespace bough::run {
 
+/// Whether a run is right to a bound though its twins do not differ as errors of the theoretical order do at all times. A
+/// run that differs from its next twin by d, which differs from the one after it by D, has the error d / (D/d - 1) if the
+/// largest differences shrink as they do; twice that is allowed for, and D/d no more than second order gives. Where d is
+/// small beside the bound the order does not matter: of first order the error is d, and of order 1/2 it is 2.4 d.
+bool agrees(const records::ErrorPart& part, double bound);
+
 /// Lets the verdict on a run rest on the errors that its twins have measured: a doubt of the estimate in time is dropped
 /// where twins know the error in time of all columns that are doubted, or doubt it themselves; measured errors above the bound of TrustLimits
 /// are doubted, and differences of twins above it that are not resolved; what could not be measured is added to what is

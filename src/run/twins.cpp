@@ -133,12 +133,13 @@ class RunWithItsTwins {
         progress_(progress),
         relay_(recorder, scene.analysis.errors.any() ? std::numeric_limits<std::size_t>::max() : most_rows) {}
 
-  records::Summary run_side_by_side() {
+  records::Summary run_side_by_side(const std::function<void(records::Summary&)>& judge) {
     twins_ = make_twins(scene_);
     if (scene::type_of(scene_.analysis.kind).integrates)
       times_ = times_to_compare(scene_, options_.from ? start_time(*options_.from) : 0.0, twins_);
     run_tasks({[this] { simulate_run(); }});
     conclude();
+    if (judge) judge(summary_);
     recorder_.end(summary_);
     return std::move(summary_);
   }
@@ -295,8 +296,9 @@ class RunWithItsTwins {
 }  // namespace
 
 records::Summary simulate_with_twins(const scene::Scene& scene, const SimulateOptions& options,
-                                     records::Recorder& recorder, const ProgressCallback& progress) {
-  return RunWithItsTwins(scene, options, recorder, progress).run_side_by_side();
+                                     records::Recorder& recorder, const ProgressCallback& progress,
+                                     const std::function<void(records::Summary&)>& judge) {
+  return RunWithItsTwins(scene, options, recorder, progress).run_side_by_side(judge);
 }
 
 records::Summary simulate_and_check(const scene::Scene& scene, const SimulateOptions& options,

@@ -41,7 +41,11 @@ TEST(Accuracy, steps_are_found_that_meet_it) {
     const double error = std::abs(run.final("b.x") - fine.final("b.x"));
     std::printf("asked %s: %ld steps, b.x off by %.2g at the end\n", asked, run.summary.steps.accepted, error);
     EXPECT_LE(error, 1.5 * goal);
-    EXPECT_LE(run.summary.steps.accepted, 256 * std::max(1.0, 3.0 * std::sqrt(1e-2 / goal))) << "far more than needed";
+    // Steps aim at 0.7 of what is allowed: far smaller errors would mean far more steps than needed.
+    double share = 0.0;
+    for (const auto& e : run.summary.errors->columns)
+      if (e.range > 0.0) share = std::max(share, e.time.largest / (goal * e.range));
+    if (run.summary.steps.accepted > 256) EXPECT_GT(share, 0.3);
   }
 }
 

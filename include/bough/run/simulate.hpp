@@ -30,7 +30,7 @@ struct SimulateOptions {
   std::function<void(double time, const std::vector<double>& values)> sample = {};
   /// Errors that twins beside this run measure: it does not list them as not examined.
   scene::ErrorsWanted measured = {};
-  /// Twins check the estimate of the error in time where it doubts the run.
+  /// Of `simulate`: twins check the estimate of the error in time where it doubts the run.
   bool checks_estimate = false;
   /// Called before every attempt of a step, with the state it starts from. If it returns false, the run ends here as
   /// interrupted, and the system is no longer used.
