@@ -105,7 +105,8 @@ void Converter::sensor(const Value& v, const std::string& at) {
   if (const Value* chain = v.find("frames"))
     for (const Value& name : chain->items) s.chain.push_back(name.text);
   s.station = number_or(v, "station", 0.0);
-  if (v.find("beam") != nullptr && v.find("station") == nullptr)
+  s.component = text_or(v, "component");
+  if (v.find("beam") != nullptr && v.find("station") == nullptr && scene::type_of(s.kind).of != scene::SensorOf::beam)
     fault(at, "needs the key \"station\"", "0 is the start of the beam, 1 its end");
   if (v.find("at") != nullptr && v.find("station") != nullptr) fault(at + "/station", "a station goes with a beam");
   add(scene.sensors, "sensors", std::move(s), at);

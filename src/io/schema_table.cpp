@@ -300,6 +300,8 @@ Rule sensor_rule(const scene::SensorType& type) {
   } else if (type.of == SensorOf::section) {
     fields.push_back(need("beam", reference, "The beam."));
     fields.push_back(need("station", station, "Fraction of its length from its start [-]."));
+  } else if (type.of == SensorOf::beam) {
+    fields.push_back(need("beam", reference, "The beam."));
   } else if (type.of == SensorOf::signal) {
     fields.push_back(need("signal", reference, "The signal."));
   } else if (type.of == SensorOf::subdomain) {
@@ -327,6 +329,9 @@ Rule sensor_rule(const scene::SensorType& type) {
                          "Which one. Default: the only coordinate that the joint has; where it has several, one has to "
                          "be given."));
   if (type.takes(SensorField::effort_part)) fields.push_back(effort_part_field());
+  if (type.takes(SensorField::resultant))
+    fields.push_back(need("component", word_rule("", scene::components_of(scene::SensorKind::section_force)),
+                          "Which section resultant, in section axes."));
   const std::string components = scene::components_text(type);
   const std::string& about = lasting(type.about + " Components: " + components + ".");
   Rule rule = object_of_kind({type.name}, about.c_str(), std::move(fields));

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
 #include "bough/results/balance.hpp"
 #include "bough/scene/components.hpp"
+#include "bough/scene/sensor_kinds.hpp"
 #include "observe_parts.hpp"
 #include "section_force.hpp"
 #include "stand_in.hpp"
@@ -87,6 +89,45 @@ Vec6<double> strain_of(const motion::Mat6<double>& stiffness, const Vec6<double>
   return x;
 }
 
+/// The largest value of sign * f along a beam.
+class ExtremeSearch {
+ public:
+  explicit ExtremeSearch(double sign) : sign_(sign) {}
+
+  /// f: the function along element k, s from 0 to 1, smooth between its nodes.
+  template <class F>
+  void see_element(const F& f, int nodes, std::size_t k) {
+    constexpr int intervals = 8;
+    constexpr double beside = 1e-9;  // where loads act on a node, forces differ before and behind it
+    for (int i = 1; i < nodes; ++i) {
+      const double from = static_cast<double>(i - 1) / (nodes - 1), to = static_cast<double>(i) / (nodes - 1);
+      double s[intervals + 1], v[intervals + 1];
+      for (int j = 0; j <= intervals; ++j) {
+        s[j] = from + (to - from) * j / intervals + (j == 0 && i > 1 ? beside : 0.0);
+        v[j] = sign_ * f(s[j]);
+        see(v[j], s[j], k);
+      }
+      for (int j = 1; j < intervals; ++j) {
+        if (v[j] < v[j - 1] || v[j] < v[j + 1]) continue;
+        const double bend = v[j - 1] - 2.0 * v[j] + v[j + 1];
+        if (!(bend < 0.0)) continue;
+        const double at = s[j] + 0.5 * (s[j + 1] - s[j]) * (v[j - 1] - v[j + 1]) / bend;
+        see(sign_ * f(at), at, k);
+      }
+    }
+  }
+  double value() const { return value_; }
+  double place() const { return place_; }  ///< in elements from the start of the beam
+
+ private:
+  void see(double v, double s, std::size_t k) {
+    if (!(v > value_)) return;
+    value_ = v;
+    place_ = static_cast<double>(k) + s;
+  }
+  double sign_, value_ = -std::numeric_limits<double>::infinity(), place_ = 0.0;
+};
+
 /// The point of a beam that a sensor names.
 BeamPoint eval_station(const step::System& system, const Field& f, const plan::SensorPlan& s) {
   const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
@@ -116,6 +157,23 @@ Vec6<double> section_force_at(const step::System& system, const step::State& sta
     force = ElementForce(system, e, beam.loads[element], f, state).at(at);
   });
   return force;
+}
+
+SectionExtremes section_extremes(const step::System& system, const step::State& state, const plan::SensorPlan& s) {
+  const plan::BeamPlan& beam = system.plan().beams[static_cast<std::size_t>(s.beam)];
+  const std::vector<std::string> names = scene::components_of(scene::SensorKind::section_force);
+  const auto component = static_cast<int>(std::find(names.begin(), names.end(), s.sensor.component) - names.begin());
+  const Field f = system.instant().field(state);
+  ExtremeSearch least(-1.0), largest(1.0);
+  for (std::size_t k = 0; k < beam.elements.size(); ++k)
+    with_beam_element(system.plan(), beam.elements[k], [&](const auto& e) {
+      ElementForce along(system, e, beam.loads[k], f, state);
+      const auto value = [&along, component](double at) { return along.at(at)[component]; };
+      least.see_element(value, std::decay_t<decltype(e)>::num_ports, k);
+      largest.see_element(value, std::decay_t<decltype(e)>::num_ports, k);
+    });
+  const auto elements = static_cast<double>(beam.elements.size());
+  return {-least.value(), largest.value(), least.place() / elements, largest.place() / elements};
 }
 
 Vec6<double> section_strain_at(const step::System& system, const step::State& state, const plan::SensorPlan& s) {

@@ -20,6 +20,13 @@ PointMotion motion_at(const step::System& system, const step::State& state, cons
 /// Section resultants and strains at the station that a sensor names, in section axes.
 motion::Vec6<double> section_force_at(const step::System& system, const step::State& state, const plan::SensorPlan& s);
 motion::Vec6<double> section_strain_at(const step::System& system, const step::State& state, const plan::SensorPlan& s);
+/// The extremes along a beam of the section resultant that a sensor names. Each element is looked at in eight intervals
+/// and on both sides of its nodes; a parabola through three neighbours finds the place between them, so that extremes
+/// are exact under uniform loads.
+struct SectionExtremes {
+  double least, largest, least_at, largest_at;  ///< values, and stations of the beam
+};
+SectionExtremes section_extremes(const step::System& system, const step::State& state, const plan::SensorPlan& s);
 
 inline void append(std::vector<double>& to, const motion::Vec3<double>& v) { to.insert(to.end(), v.v, v.v + 3); }
 inline void append(std::vector<double>& to, const motion::Vec6<double>& v) { to.insert(to.end(), v.v, v.v + 6); }

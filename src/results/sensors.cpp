@@ -195,6 +195,11 @@ constexpr Kernel kernels[] = {
        append(to, turned(lanes::transpose(seen), force.wrench));
      }},
     {joint_effort, [](Look& l, const SensorPlan& s, Values& to) { to.push_back(effort_of(l, s)); }},
+    {section_force_extremes,
+     [](Look& l, const SensorPlan& s, Values& to) {
+       const SectionExtremes e = section_extremes(l.system, l.state, s);
+       to.insert(to.end(), {e.least, e.largest, e.least_at, e.largest_at});
+     }},
 };
 constexpr bool is_in_order() {
   for (std::size_t k = 0; k < std::size(kernels); ++k)

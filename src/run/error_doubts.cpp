@@ -75,6 +75,20 @@ void doubt_worst(const records::MeasuredErrors& errors, ErrorPart ErrorOf::*part
                                    share + others + (p.cause.empty() ? "" : "; " + p.cause) + "; " + words.remedy});
 }
 
+/// Columns that the estimate doubts. Without sensors of motion the estimate is one of all columns.
+std::vector<const ErrorOf*> doubted_columns(const records::MeasuredErrors& errors, const records::Summary& summary,
+                                            const TrustLimits& limits) {
+  std::vector<const ErrorOf*> doubted;
+  for (const ErrorOf& e : errors.columns) {
+    const auto estimate = std::find_if(summary.sensor_errors.begin(), summary.sensor_errors.end(),
+                                       [&](const records::SensorError& s) { return s.column == e.name; });
+    if (estimate == summary.sensor_errors.end() ? summary.sensor_errors.empty()
+                                                : estimate->relative() > limits.sensor_error)
+      doubted.push_back(&e);
+  }
+  return doubted;
+}
+
 /// Names of the columns of which twins know nothing, with the reason.
 std::string left_out(const records::MeasuredErrors& errors, ErrorPart ErrorOf::*part, const Words& words) {
   std::string names, cause;
@@ -98,7 +112,7 @@ bool agrees(const ErrorPart& part, double bound) {
   if (part.state != ErrorState::not_resolved || part.largest > bound) return false;
   if (part.largest <= small * bound && part.spread <= bound) return true;
   const double ratio = part.largest > 0.0 ? std::min(part.spread / part.largest, most_ratio) : 0.0;
-  return ratio >= least_ratio && safety * part.largest <= (ratio - 1.0) * bound;
+  return ratio >= least_ratio && part.largest * ((part.has_finer ? 1.0 : 0.0) + safety / (ratio - 1.0)) <= bound;
 }
 
 void judge_errors(const records::MeasuredErrors& errors, const scene::ErrorsWanted& wanted, records::Summary& summary) {
@@ -118,31 +132,17 @@ bool is_estimate_doubted(const records::Summary& summary) {
                      [](const records::Doubt& d) { return d.about == estimate_beside_twins; });
 }
 
-void check_estimate(const records::MeasuredErrors& errors, records::Summary& summary) {
+bool check_estimate(const records::MeasuredErrors& errors, const std::string& runs, records::Summary& summary) {
   const TrustLimits limits;
-  // Without sensors of motion the estimate is one of all columns.
-  std::vector<const ErrorOf*> doubted;
-  for (const ErrorOf& e : errors.columns) {
-    const auto estimate = std::find_if(summary.sensor_errors.begin(), summary.sensor_errors.end(),
-                                       [&](const records::SensorError& s) { return s.column == e.name; });
-    if (estimate == summary.sensor_errors.end() ? summary.sensor_errors.empty()
-                                                : estimate->relative() > limits.sensor_error)
-      doubted.push_back(&e);
-  }
-  double most = 0.0;  // over the range
+  const std::vector<const ErrorOf*> doubted = doubted_columns(errors, summary, limits);
   bool are_known = !doubted.empty(), are_right = are_known;
   for (const ErrorOf* e : doubted) {
     const double bound = limits.sensor_error * e->range;
     are_known = are_known && e->time.is_known();
     are_right = are_right && ((e->time.is_known() && e->time.largest <= bound) || agrees(e->time, bound));
-    if (e->range > 0.0) most = std::max(most, e->time.largest / e->range);
   }
-  const std::string runs = "runs in steps twice and four times as long ";
-  if (!are_right && !are_known) {
-    keep_estimates_doubt(summary, runs + "differ from it by up to " + percent(most) +
-                                      " of a range, and not as errors of second order do");
-    return;
-  }
+  if (!are_right && !are_known) return false;
+  const double most = difference_from_twins(errors, summary);
   std::erase_if(summary.doubts, [](const records::Doubt& d) { return d.about == estimate_beside_twins; });
   for (records::SensorError& s : summary.sensor_errors)
     if (const ErrorOf* const e = column_named(errors, s.column); e != nullptr && e->time.largest > 0.0) {
@@ -150,10 +150,18 @@ void check_estimate(const records::MeasuredErrors& errors, records::Summary& sum
       s.of_energy = 0.0;
     }
   if (are_right)
-    summary.notes.push_back("the estimated error in time was large; " + runs + "put it at " + percent(most) +
+    summary.notes.push_back("the estimated error in time was large; runs in " + runs + " put it at " + percent(most) +
                             " of a range or less");
   else
     doubt_worst(errors, &ErrorOf::time, in_time, true, limits.sensor_error, summary.doubts);
+  return true;
+}
+
+double difference_from_twins(const records::MeasuredErrors& errors, const records::Summary& summary) {
+  double most = 0.0;
+  for (const ErrorOf* e : doubted_columns(errors, summary, TrustLimits{}))
+    if (e->range > 0.0) most = std::max(most, e->time.largest / e->range);
+  return most;
 }
 
 void keep_estimates_doubt(records::Summary& summary, const std::string& more) {

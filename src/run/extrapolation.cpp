@@ -90,6 +90,7 @@ Extrapolation extrapolate(const MemberDifferences& d, std::span<const double> ti
   if (fine.size() == 0) return result;
   part.theoretical_order = theory.order;
   part.spread = std::max(fine.largest(), coarse.largest());
+  part.has_finer = run > 0;
   const auto tell = [&part, times](const Magnitudes& m) {
     part.largest = m.largest();
     part.root_mean_square = m.root_mean_square();

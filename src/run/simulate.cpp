@@ -10,13 +10,11 @@ namespace bough::run {
 
 namespace {
 
-/// Twins take as long as three quarters of the run, which nobody asked for: no more than this, estimated.
-constexpr double most_seconds = 30.0;
-
+/// Twins in longer steps take three quarters of the time of the run.
 bool can_check(const scene::Scene& scene) {
   const scene::Analysis& analysis = scene.analysis;
   return scene::type_of(analysis.kind).integrates && !analysis.step_control && scene.output.checks &&
-         estimate_run(scene).seconds() < most_seconds;
+         estimate_run(scene).seconds() < most_unasked_seconds;
 }
 
 }  // namespace

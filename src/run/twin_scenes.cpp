@@ -88,11 +88,9 @@ scene::Scene plain(scene::Scene scene) {
 void add_in_time(const scene::Scene& scene, Twins& twins) {
   const scene::AnalysisType& kind = scene::type_of(scene.analysis.kind);
   if (kind.integrates) {
-    for (const double factor : {2.0, 4.0}) {
-      Twin twin{plain(scene), false, factor};
-      twin.scene.analysis.step_size *= factor;
-      if (twin.scene.analysis.step_size <= scene.analysis.end_time) twins.members.push_back(std::move(twin));
-    }
+    for (const double factor : {2.0, 4.0})
+      if (factor * scene.analysis.step_size <= scene.analysis.end_time)
+        twins.members.push_back(twin_in_time(scene, factor));
     if (twins.members.empty())
       twins.remarks.push_back("no error in time is measured: the run has one step, and none can be longer");
   } else if (kind.is_in_time) {
@@ -144,6 +142,12 @@ std::string text_of(const Twin& twin) {
   return twin.scene.analysis.kind == scene::AnalysisKind::statics
              ? io::rounded_text(twin.factor, 3) + " times as many load steps"
              : "steps " + io::rounded_text(twin.factor, 3) + " times as long";
+}
+
+Twin twin_in_time(const scene::Scene& scene, double factor) {
+  Twin twin{plain(scene), false, factor, 1.0 / factor};
+  twin.scene.analysis.step_size *= factor;
+  return twin;
 }
 
 Twins make_twins(const scene::Scene& scene) {

@@ -35,4 +35,7 @@ struct Twins {
 /// named inner nodes, are odd. Twins are not recorded and not checked. Precondition: problems_in(scene) is empty.
 Twins make_twins(const scene::Scene& scene);
 
+/// A twin in time with steps of `factor` times the size.
+Twin twin_in_time(const scene::Scene& scene, double factor);
+
 }  // namespace bough::run

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <span>
 
+#include "bough/io/number_text.hpp"
+#include "bough/run/estimate.hpp"
 #include "bough/run/simulation.hpp"
 #include "bough/scene/analysis_kinds.hpp"
 #include "bough/schedule/side_by_side.hpp"
@@ -241,23 +243,34 @@ class RunWithItsTwins {
     run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   }
 
+  /// Twins in longer steps cost three quarters of the run. Where they do not resolve what happens, one in half the step
+  /// decides, if it is not long.
   void check() {
     scene::Scene wanted = scene_;
     wanted.analysis.errors = {.time = true};
     twins_ = make_twins(wanted);
     times_ = times_of_rows(relay_.rows, twins_.members.empty() ? 1.0 : twins_.members.back().scene.analysis.step_size);
-    if (summary_.status != RunStatus::ok || relay_.goes_on || twins_.members.size() < 2) {
-      keep_estimates_doubt(summary_);
-      return;
-    }
-    run_tasks({});
-    if (is_stopped_) {
-      keep_estimates_doubt(summary_);
-      return;
-    }
     series_ = series_of(relay_.rows);
-    check_estimate(measure_errors({wanted, summary_, std::move(series_), std::move(relay_.rows), std::move(runs_), {}}),
-                   summary_);
+    if (summary_.status == RunStatus::ok && !relay_.goes_on && twins_.members.size() >= 2) {
+      run_tasks({});
+      if (!is_stopped_ && decides(wanted, "steps twice and four times as long")) return;
+      Twin half = twin_in_time(scene_, 0.5);
+      if (!is_stopped_ && estimate_run(half.scene).seconds() < most_unasked_seconds) {
+        std::vector<TwinRun> others = std::move(runs_);
+        twins_.members.assign(1, std::move(half));
+        run_tasks({});
+        runs_.insert(runs_.end(), std::make_move_iterator(others.begin()), std::make_move_iterator(others.end()));
+        if (!is_stopped_ && decides(wanted, "steps half, twice and four times as long")) return;
+      }
+    }
+    keep_estimates_doubt(summary_, undecided_);
+  }
+
+  bool decides(const scene::Scene& wanted, const std::string& runs) {
+    const records::MeasuredErrors errors = measure_errors({wanted, summary_, series_, relay_.rows, runs_, {}});
+    undecided_ = "runs in " + runs + " differ by up to " + io::rounded_text(100.0 * difference_from_twins(errors, summary_), 2) +
+                 " % of a range, and not as errors of second order do";
+    return check_estimate(errors, runs, summary_);
   }
 
   void conclude() {
@@ -288,6 +301,7 @@ class RunWithItsTwins {
   MemberSeries series_;
   std::vector<TwinRun> runs_;
   records::Summary summary_;
+  std::string undecided_;  ///< what twins tell that do not decide on the doubt of the estimate
   records::Progress last_;
   std::atomic<bool> is_stopped_{false}, has_ended_{false};
   std::mutex asking_;

@@ -99,7 +99,7 @@ void check_sensor(ProblemList& list, std::size_t i) {
     list.check_place("sensors", i, "at", s.at.to, true);
     return;
   }
-  if (type.of == SensorOf::point || type.of == SensorOf::section) {
+  if (type.of == SensorOf::point || type.of == SensorOf::section || type.of == SensorOf::beam) {
     list.check_reference("sensors", i, "beam", s.beam, list.beams, "beam");
     if (!(s.station >= 0.0 && s.station <= 1.0))
       list.add("sensors", i, "station", text_of(s.station), "a station is a fraction of the beam's length, 0 to 1");

@@ -136,6 +136,10 @@ std::vector<SensorType> make_types() {
        {F::coordinate, F::effort_part},
        "Torque on the second along a coordinate of a joint, of all that acts along it or of one part of that; of a "
        "displacement the force in N."},
+      {SensorKind::section_force_extremes, "section_force_extremes", SensorOf::beam, SensorShows::force,
+       in("N", {"least", "largest"}) + in("", {"least_at", "largest_at"}),
+       {F::resultant},
+       "Least and largest value of a section resultant along a beam, and their stations; of a moment in N m."},
   };
 }
 
@@ -193,6 +197,9 @@ std::vector<std::string> components_of(SensorKind kind) {
 
 std::string unit_of(const Sensor& sensor, std::size_t component) {
   const SensorType& type = type_of(sensor.kind);
+  if (type.takes(SensorField::resultant) && !type.components.at(component).unit.empty())
+    for (const SensorComponent& c : type_of(SensorKind::section_force).components)
+      if (c.name == sensor.component) return c.unit;
   if (!type.takes(SensorField::coordinate)) return type.components.at(component).unit;
   const bool is_effort = sensor.kind == SensorKind::joint_effort;
   for (const JointType& joint : joint_types())

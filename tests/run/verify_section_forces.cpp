@@ -96,6 +96,46 @@ TEST(SectionForces, of_a_beam_on_two_supports_are_the_parabola_of_its_load) {
   }
 }
 
+// M = q x (L - x) / 2 has its extreme q L^2 / 8 in the middle, M = P x (1 - a / L) its own under the load, where Q jumps
+// by P; between nodes, on them and within elements of every order.
+TEST(SectionForces, have_their_extremes_where_closed_forms_have_them) {
+  const double q = 1000.0, P = 3000.0, L = 4.0;
+  for (const Mesh& mesh : {Mesh{1, 1}, Mesh{1, 3}, Mesh{1, 8}, Mesh{2, 1}, Mesh{2, 2}, Mesh{3, 1}, Mesh{3, 4}}) {
+    SCOPED_TRACE(mesh.text());
+    const auto extremes = [&mesh](const std::string& load) {
+      return run_ok(scene_of(std::string("{") + stiff + R"(,
+        "nodes": [{"name": "a"}, {"name": "z", "position": [4, 0, 0]}],
+        "beams": [{"name": "b", "section": "s", "start": "a", "end": "z", )" +
+                             mesh.text() + R"(}],
+        "joints": [{"name": "pin", "kind": "revolute", "first": "ground", "second": "a", "axis": [0, 1, 0]}],
+        "motions": [{"at": "z", "z": 0}], "loads": [)" + load + R"(],
+        "sensors": [{"name": "M", "kind": "section_force_extremes", "beam": "b", "component": "M2"},
+                    {"name": "Q", "kind": "section_force_extremes", "beam": "b", "component": "Q3"}],
+        "analysis": {"kind": "static", "tolerance": 1e-11}})"));
+    };
+    const auto far_from_zero = [](const Outcome& run, const std::string& name) {
+      const double least = run.history.last(name + ".least"), largest = run.history.last(name + ".largest");
+      const bool is_least = -least > largest;
+      return std::pair{is_least ? -least : largest, run.history.last(name + (is_least ? ".least_at" : ".largest_at"))};
+    };
+    const Outcome uniform = extremes(R"({"beam": "b", "force": [0, 0, -1000]})");
+    const auto [moment, place] = far_from_zero(uniform, "M");
+    EXPECT_NEAR(moment, q * L * L / 8.0, 6e-3);
+    EXPECT_NEAR(place, 0.5, 1e-6);
+    EXPECT_NEAR(uniform.history.last("Q.least"), -0.5 * q * L, 5e-5);
+    EXPECT_NEAR(uniform.history.last("Q.largest"), 0.5 * q * L, 5e-5);
+    EXPECT_NEAR(uniform.history.last("Q.largest_at") + uniform.history.last("Q.least_at"), 1.0, 1e-12);
+    const int nodes = mesh.order * mesh.elements;
+    if (nodes < 2) continue;
+    const double a = L / nodes;
+    const Outcome at_node = extremes(R"({"at": "b.1", "force": [0, 0, -3000]})");
+    const auto [peak, under] = far_from_zero(at_node, "M");
+    EXPECT_NEAR(peak, P * a * (L - a) / L, 2e-2);
+    EXPECT_NEAR(under, 1.0 / nodes, 1e-6);
+    EXPECT_NEAR(at_node.history.last("Q.largest") - at_node.history.last("Q.least"), P, 1e-3);
+  }
+}
+
 // A heavy soft cantilever, bent by far more than its length over ten: the force is the weight beyond, (L - s) q, straight
 // down, whatever the section's axes.
 TEST(SectionForces, of_a_bent_cantilever_carry_the_loads_beyond_exactly) {

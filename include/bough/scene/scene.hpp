@@ -290,6 +290,7 @@ enum class SensorKind : std::uint8_t {
   interface_force,
   force,
   joint_effort,
+  section_force_extremes,
 };
 
 struct Sensor {
@@ -298,6 +299,7 @@ struct Sensor {
   Attachment at;         ///< node or body with offset (position, rotation, velocity, acceleration)
   std::string beam;      ///< section sensors, or a point on a beam's axis
   double station = 0.0;  ///< fraction of the beam's length, 0 to 1
+  std::string component;  ///< section_force_extremes: which section resultant
   std::string joint;
   std::string coordinate;  ///< joint_rate, joint_effort: "angle" or "displacement"; empty: the only one the joint has
   std::string of;          ///< joint_effort: the part read (joint_efforts.hpp); empty: all

@@ -13,6 +13,7 @@ namespace bough::scene {
 enum class SensorOf : std::uint8_t {
   point,       ///< a point of a node, a body, a frame or the ground (`at`), or of a beam's axis (`beam`, `station`)
   section,     ///< a section of a beam (`beam`, `station`)
+  beam,        ///< the whole of a beam (`beam`)
   reaction,    ///< a joint
   coordinate,  ///< a coordinate of a joint
   signal,      ///< a signal of the scene
@@ -38,6 +39,7 @@ enum class SensorField : std::uint8_t {
   chain,        ///< `frames`
   coordinate,   ///< of a joint
   effort_part,  ///< `of`
+  resultant,    ///< `component`: one of a section force
 };
 
 struct SensorComponent {
