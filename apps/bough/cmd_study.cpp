@@ -32,7 +32,7 @@ std::vector<std::filesystem::path> specs_in(const std::filesystem::path& path) {
 }
 
 void print_counts(const study::SweepResult& r, const std::filesystem::path& page) {
-  std::cout << r.spec.name << ": " << r.runs.size() << " runs, " << r.num_failed()
+  std::cout << r.spec.name << ": " << r.num_runs() << " runs, " << r.num_failed()
             << " failed; orders: " << r.num_orders(study::Verdict::holds) + r.num_orders(study::Verdict::explained)
             << " as in theory, " << r.num_orders(study::Verdict::below) + r.num_orders(study::Verdict::above)
             << " not\n";
@@ -72,7 +72,7 @@ bool tell_faults(const study::SweepResult& r) {
   if (r.was_stopped)
     tell("it was stopped before its end");
   else if (!has_measured(r))
-    tell(std::to_string(r.runs.size()) + " runs, " + std::to_string(r.num_failed()) +
+    tell(std::to_string(r.num_runs()) + " runs, " + std::to_string(r.num_failed()) +
          " of them failed, show no error or order that could be measured; study.csv says why each run failed");
   return is_good;
 }

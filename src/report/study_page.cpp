@@ -66,7 +66,7 @@ class StudyPage {
 
  private:
   static std::string lead(const SweepResult& r) {
-    return "Scene " + r.spec.scene_name + ": " + count_text(r.runs.size(), "run", "runs") + ", " +
+    return "Scene " + r.spec.scene_name + ": " + count_text(r.num_runs(), "run", "runs") + ", " +
            std::to_string(r.num_failed()) +
            " failed. Errors are the largest over the sample times, relative to the largest value of the reference; of "
            "rotations, the angle between the two in rad. Run times are medians of " +
@@ -174,6 +174,7 @@ class StudyPage {
     for (const std::string& figure : r_.spec.figures) add_figure(figure, g, charts);
     page_.charts(charts);
     orders(g);
+    pairs(g);
     runs(g);
   }
 
@@ -240,6 +241,32 @@ class StudyPage {
     page_.subsection("Orders");
     page_.table(table);
     for (const std::string& theory : theories) page_.paragraph("Theory: " + theory + ".", Tone::soft);
+  }
+
+  /// What runs of h and 2 h tell of the error of the first, and what their extrapolation leaves.
+  void pairs(std::size_t g) {
+    Table table{{"runs", "quantity", "error", "told over true", "error extrapolated", "time [s]", "time of both [s]"}, {}};
+    for (std::size_t k = 0; k < r_.runs.size(); ++k) {
+      const SweepRun& run = r_.runs[k];
+      if (run.grid != g || !run.pair) continue;
+      const SweepRun& fine = r_.runs[run.pair->first];
+      for (std::size_t q = 0; q < run.errors.size(); ++q) {
+        if (std::isnan(run.told_over_true[q])) continue;
+        table.rows.push_back(
+            {{fine.label},
+             {r_.spec.quantities[q].name},
+             measured(fine.errors[q].max, 3, error_pointer(run.pair->first, q, "max")),
+             measured(run.told_over_true[q], 3, run_pointer(k) + "/told_over_true/" + std::to_string(q)),
+             measured(run.errors[q].max, 3, error_pointer(k, q, "max")),
+             measured(study::spread_of(fine.wall).median, 3, run_pointer(run.pair->first) + "/seconds/median"),
+             measured(study::spread_of(run.wall).median, 3, run_pointer(k) + "/seconds/median")});
+      }
+    }
+    if (table.rows.empty()) return;
+    page_.subsection("Pairs of runs with steps h and 2 h");
+    page_.paragraph("Told over true: the error of the run with h as the difference of both tells it, over the error "
+                    "against the reference.");
+    page_.table(table);
   }
 
   void runs(std::size_t g) {
@@ -329,7 +356,7 @@ std::string study_html(const SweepResult& result) { return StudyPage(result).htm
 StudyEntry entry_of(const SweepResult& r) {
   StudyEntry entry{r.spec.name,
                    r.spec.title,
-                   r.runs.size(),
+                   r.num_runs(),
                    r.num_failed(),
                    r.num_orders(Verdict::holds) + r.num_orders(Verdict::explained),
                    r.num_orders(Verdict::below) + r.num_orders(Verdict::above),

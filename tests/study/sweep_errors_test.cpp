@@ -37,6 +37,26 @@ TEST(Distance, of_rotations_about_two_axes_is_that_of_the_relative_rotation) {
   EXPECT_NEAR(distance(QuantityKind::rotation, {M_PI / 2, 0.0, 0.0}, {0.0, M_PI / 2, 0.0}), 2.0 * M_PI / 3.0, 1e-15);
 }
 
+TEST(Extrapolation, takes_the_leading_error_off_numbers_and_off_rotations_about_a_moving_axis) {
+  // Errors c h^2, of rotations R exp(c h^2): of steps 1 and 2 with c = 0.01.
+  const Samples of_one{{3.0 + 0.01, -2.0 + 0.02}, {}}, of_two{{3.0 + 0.04, -2.0 + 0.08}, {1.0, 1.0}};
+  const Samples limit = extrapolated(QuantityKind::vector, of_one, of_two, 2.0);
+  EXPECT_NEAR(limit[0][0], 3.0, 1e-15);
+  EXPECT_NEAR(limit[0][1], -2.0, 1e-15);
+  EXPECT_TRUE(limit[1].empty());
+  const auto turned = [](double angle) {  // half a turn about z but for 0.1, then about x
+    const double a = 0.5 * (M_PI - 0.1), b = 0.5 * angle;
+    return std::vector<double>{std::cos(a) * std::cos(b), std::cos(a) * std::sin(b), std::sin(a) * std::sin(b),
+                               std::sin(a) * std::cos(b)};
+  };
+  for (const double sign : {1.0, -1.0}) {  // of a quaternion and of its opposite
+    std::vector<double> coarse = turned(0.04);
+    for (double& x : coarse) x *= sign;
+    const Samples rotation = extrapolated(QuantityKind::quaternion, {turned(0.01)}, {coarse}, 2.0);
+    EXPECT_LT(distance(QuantityKind::quaternion, rotation[0], turned(0.0)), 1e-15);
+  }
+}
+
 TEST(Errors, are_relative_to_the_largest_reference_and_have_three_norms) {
   const Samples reference{{3.0, 4.0}, {0.0, 0.0}, {0.0, 1.0}}, values{{3.0, 4.0}, {0.0, 1.0}, {2.0, 1.0}};
   const double scale = error_scale(QuantityKind::vector, reference);

@@ -56,15 +56,16 @@ io::StudySpec pendulum_study(const std::string& steps = "[0.02, 0.01, 0.005]", c
 
 TEST(Sweep, finds_the_orders_of_both_integrators_against_closed_form_and_finer_steps) {
   const SweepResult r = run_sweep(pendulum_study(), {});
-  ASSERT_EQ(r.series.size(), 2u);
+  ASSERT_EQ(r.series.size(), 4u);
+  EXPECT_EQ(r.num_runs(), 6u);
   EXPECT_EQ(r.references[0].kinds, (std::vector<std::string>{"table", "computed"}));
   EXPECT_EQ(r.references[0].errors_of, (std::vector<std::string>{"all", "time"}));
   EXPECT_EQ(r.references[0].uncertainties[0], 0.0);
   EXPECT_GT(r.references[0].uncertainties[1], 0.0);
   EXPECT_LT(r.references[0].uncertainties[1], 1e-5);
-  for (const SweepSeries& s : r.series)
-    for (const OrderFit& f : s.fits) {
-      EXPECT_EQ(f.verdict, Verdict::holds) << s.label << ": " << f.order;
+  for (std::size_t s = 0; s < 2; ++s)
+    for (const OrderFit& f : r.series[s].fits) {
+      EXPECT_EQ(f.verdict, Verdict::holds) << r.series[s].label << ": " << f.order;
       EXPECT_NEAR(f.order, 2.0, 0.1);
     }
   EXPECT_EQ(r.num_failed(), 0u);
@@ -77,6 +78,27 @@ TEST(Sweep, finds_the_orders_of_both_integrators_against_closed_form_and_finer_s
     EXPECT_GT(run.errors[0].max, 0.0);
     EXPECT_LE(run.errors[0].rms, run.errors[0].max);
     EXPECT_LE(run.errors[0].end, run.errors[0].max);
+  }
+}
+
+// Both integrators have errors with even powers of the step alone: two runs tell the error of the finer one, and leave
+// one of fourth order.
+TEST(Sweep, extrapolates_pairs_of_runs_to_fourth_order_and_tells_their_errors) {
+  const SweepResult r = run_sweep(pendulum_study("[0.04, 0.02, 0.01, 0.005]"), {});
+  ASSERT_EQ(r.series.size(), 4u);
+  for (std::size_t s = 2; s < 4; ++s) {
+    const SweepSeries& pairs = r.series[s];
+    ASSERT_EQ(pairs.runs.size(), 3u) << pairs.label;
+    EXPECT_NEAR(pairs.fits[0].order, 4.0, 0.2) << pairs.label;
+    for (const std::size_t k : pairs.runs) {
+      const SweepRun& pair = r.runs[k];
+      const SweepRun &fine = r.runs[pair.pair->first], &coarse = r.runs[pair.pair->second];
+      EXPECT_DOUBLE_EQ(coarse.abscissa, 2.0 * fine.abscissa);
+      EXPECT_NEAR(pair.told_over_true[0], 1.0, 0.02) << pair.label;
+      EXPECT_LT(pair.errors[0].max, 0.02 * fine.errors[0].max) << pair.label;
+      EXPECT_EQ(pair.steps.accepted, fine.steps.accepted + coarse.steps.accepted);
+      EXPECT_DOUBLE_EQ(pair.wall[0], fine.wall[0] + coarse.wall[0]);
+    }
   }
 }
 

@@ -21,6 +21,10 @@ double error_scale(io::QuantityKind kind, const Samples& reference);
 /// there.
 ErrorNorms eval_errors(io::QuantityKind kind, const Samples& values, const Samples& reference, double scale);
 
+/// Richardson's extrapolation of a quantity with errors of order p from steps h and 2 h,  u_h + (u_h - u_2h) / (2^p - 1),
+/// of rotations R_h exp(log(R_2h^T R_h) / (2^p - 1)), which are told as quaternions. Empty where one has no value.
+Samples extrapolated(io::QuantityKind kind, const Samples& fine, const Samples& coarse, double order);
+
 /// Slope of log y over log x by least squares. x, y: positive. Fewer than two different x: NaN.
 double log_slope(const std::vector<double>& x, const std::vector<double>& y);
 

@@ -27,7 +27,7 @@ struct Spread {
 };
 Spread spread_of(std::vector<double> values);
 
-/// One combination of choices.
+/// One combination of choices, or a pair: a run extrapolated with that of twice its step.
 struct SweepRun {
   std::size_t grid = 0;
   std::vector<std::size_t> choices;  ///< one of each axis of the grid
@@ -46,6 +46,10 @@ struct SweepRun {
   std::vector<double> wall, cpu;  ///< of the repetitions, in the order of the rounds [s]; without plan, tree and output
   std::vector<double> final_values;  ///< of all sensors
   bool is_repeatable = true;         ///< all repetitions ended with the same bits
+  /// A pair: the runs of its step and of twice its step. Times, instructions and steps are then sums of both.
+  std::optional<std::pair<std::size_t, std::size_t>> pair;
+  /// A pair: by quantity, the error of its first run as both tell it, over the true one; NaN: not measured.
+  std::vector<double> told_over_true;
 };
 
 enum class Verdict {
@@ -120,6 +124,7 @@ struct SweepResult {
   std::vector<SweepAdvice> advice;
   bool was_stopped = false;
 
+  std::size_t num_runs() const;                   ///< without pairs
   std::size_t num_failed() const;                 ///< runs
   std::size_t num_orders(Verdict verdict) const;  ///< fits with this verdict
 };

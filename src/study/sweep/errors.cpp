@@ -65,6 +65,25 @@ ErrorNorms eval_errors(io::QuantityKind kind, const Samples& values, const Sampl
   return e;
 }
 
+Samples extrapolated(io::QuantityKind kind, const Samples& fine, const Samples& coarse, double order) {
+  const double part = 1.0 / (std::exp2(order) - 1.0);
+  Samples limit(std::min(fine.size(), coarse.size()));
+  for (std::size_t k = 0; k < limit.size(); ++k) {
+    if (fine[k].empty() || coarse[k].empty()) continue;
+    if (kind == io::QuantityKind::vector) {
+      limit[k] = fine[k];
+      for (std::size_t i = 0; i < limit[k].size(); ++i) limit[k][i] += part * (fine[k][i] - coarse[k][i]);
+      continue;
+    }
+    const Quaternion q = quaternion_of(fine[k]), d = motion::multiply(motion::conjugate(quaternion_of(coarse[k])), q);
+    const double sine = std::hypot(d.v[0], d.v[1], d.v[2]), half = std::atan2(sine, std::abs(d.w));
+    const double f = sine > 0.0 ? std::copysign(std::sin(part * half) / sine, d.w) : 0.0;
+    const Quaternion r = motion::multiply(q, Quaternion{std::cos(part * half), {{f * d.v[0], f * d.v[1], f * d.v[2]}}});
+    limit[k] = {r.w, r.v[0], r.v[1], r.v[2]};
+  }
+  return limit;
+}
+
 double log_slope(const std::vector<double>& x, const std::vector<double>& y) {
   const double n = static_cast<double>(x.size());
   if (x.size() < 2) return unmeasured;

@@ -83,6 +83,15 @@ int threads_of(const io::StudyGrid& grid, const SweepRun& run) {
   return 1;
 }
 
+/// Whether the abscissa of a grid is the size of steps in time.
+bool is_over_steps(const io::StudyGrid& grid) {
+  const std::vector<io::StudyChoice>& choices = grid.axes[grid.abscissa].choices;
+  return std::all_of(choices.begin(), choices.end(), [](const io::StudyChoice& choice) {
+    return std::any_of(choice.overrides.begin(), choice.overrides.end(),
+                       [](const std::string& o) { return o.starts_with("/analysis/step_size="); });
+  });
+}
+
 /// A study in progress.
 class Sweep {
  public:
@@ -101,6 +110,7 @@ class Sweep {
     measure_errors();
     measure_times();
     make_series();
+    make_pairs();
     advise();
     result_.was_stopped = is_stopped();
     return std::move(result_);
@@ -134,6 +144,7 @@ class Sweep {
         result_.runs.push_back(std::move(run));
       }
     }
+    values_.resize(result_.runs.size());
   }
 
   void compute_references() {
@@ -186,9 +197,13 @@ class Sweep {
     if (!sampled.ok() || !reference.told.trouble.empty()) return;
     for (std::size_t q = 0; q < run.errors.size(); ++q) {
       const io::StudyQuantity& quantity = result_.spec.quantities[q];
-      run.errors[q] =
-          eval_errors(quantity.kind, sampled.of(quantity.columns), reference.values[q], reference.told.scales[q]);
+      Samples values = sampled.of(quantity.columns);
+      run.errors[q] = eval_errors(quantity.kind, values, reference.values[q], reference.told.scales[q]);
+      if (is_over_steps(result_.spec.grids[run.grid])) values_of(run).push_back(std::move(values));
     }
+  }
+  std::vector<Samples>& values_of(const SweepRun& run) {
+    return values_[static_cast<std::size_t>(&run - result_.runs.data())];
   }
 
   /// Rounds over all runs, alternately forwards and backwards, so that a temporary load of the machine affects all runs
@@ -233,6 +248,68 @@ class Sweep {
       found->runs.push_back(k);
     }
     for (SweepSeries& series : result_.series) fit(series);
+  }
+
+  /// Appends a series of pairs to every series over steps that are halved and whose orders theory states.
+  void make_pairs() {
+    const std::size_t count = result_.series.size();
+    for (std::size_t s = 0; s < count; ++s) {
+      const std::vector<std::size_t> runs = result_.series[s].runs;  // from coarse to fine
+      SweepSeries pairs{result_.series[s].grid, result_.series[s].label + ", pairs extrapolated", {}, {}};
+      if (!is_over_steps(result_.spec.grids[pairs.grid])) continue;
+      for (std::size_t k = 1; k < runs.size(); ++k) {
+        constexpr double round_off = 1e-9;
+        const SweepRun &fine = result_.runs[runs[k]], &coarse = result_.runs[runs[k - 1]];
+        if (std::abs(coarse.abscissa - 2.0 * fine.abscissa) > round_off * coarse.abscissa) continue;
+        if (values_[runs[k]].empty() || values_[runs[k - 1]].empty()) continue;
+        pairs.runs.push_back(result_.runs.size());
+        result_.runs.push_back(pair_of(runs[k], runs[k - 1], result_.series[s].fits));
+      }
+      if (pairs.runs.empty()) continue;
+      fit(pairs);
+      for (OrderFit& f : pairs.fits) {  // theory is that of single runs
+        f.expected = unmeasured;
+        f.theory = f.explanation = {};
+        judge(f);
+      }
+      result_.series.push_back(std::move(pairs));
+    }
+  }
+
+  SweepRun pair_of(std::size_t k_fine, std::size_t k_coarse, const std::vector<OrderFit>& fits) const {
+    const SweepRun &fine = result_.runs[k_fine], &coarse = result_.runs[k_coarse];
+    SweepRun pair = fine;
+    pair.label += ", extrapolated with twice the step";
+    pair.pair = {k_fine, k_coarse};
+    pair.solver.clear();
+    pair.final_values.clear();
+    pair.steps.accepted += coarse.steps.accepted;
+    pair.steps.rejected += coarse.steps.rejected;
+    pair.steps.newton_iterations += coarse.steps.newton_iterations;
+    pair.steps.factorizations += coarse.steps.factorizations;
+    if (pair.instructions && coarse.instructions)
+      *pair.instructions += *coarse.instructions;
+    else
+      pair.instructions.reset();
+    const auto add = [](std::vector<double>& to, const std::vector<double>& more) {
+      to.resize(std::min(to.size(), more.size()));
+      for (std::size_t i = 0; i < to.size(); ++i) to[i] += more[i];
+    };
+    add(pair.wall, coarse.wall);
+    add(pair.cpu, coarse.cpu);
+    const GridReference& reference = references_[fine.grid];
+    pair.told_over_true.assign(pair.errors.size(), unmeasured);
+    for (std::size_t q = 0; q < pair.errors.size(); ++q) {
+      pair.errors[q] = {};
+      const double order = fits[q].expected;
+      if (std::isnan(order)) continue;
+      const io::QuantityKind kind = result_.spec.quantities[q].kind;
+      const double scale = reference.told.scales[q];
+      const Samples limit = extrapolated(kind, values_[k_fine][q], values_[k_coarse][q], order);
+      pair.errors[q] = eval_errors(kind, limit, reference.values[q], scale);
+      pair.told_over_true[q] = eval_errors(kind, values_[k_fine][q], limit, scale).max / fine.errors[q].max;
+    }
+    return pair;
   }
 
   void fit(SweepSeries& series) {
@@ -294,12 +371,18 @@ class Sweep {
   ReferenceCache cache_;
   SweepResult result_;
   std::vector<GridReference> references_;
+  std::vector<std::vector<Samples>> values_;  ///< by run and quantity, where its grid is one over steps
   std::mutex guard_;
 };
 
 }  // namespace
 
 SweepResult run_sweep(const io::StudySpec& spec, const SweepOptions& options) { return Sweep(spec, options).run(); }
+
+std::size_t SweepResult::num_runs() const {
+  return static_cast<std::size_t>(
+      std::count_if(runs.begin(), runs.end(), [](const SweepRun& run) { return !run.pair; }));
+}
 
 std::size_t SweepResult::num_failed() const {
   return static_cast<std::size_t>(std::count_if(

@@ -154,6 +154,16 @@ void write_run(io::JsonText& json, const SweepResult& r, const SweepRun& run) {
   json.end_object();
   measured(json, "instructions", run.instructions.value_or(unmeasured));
   json.member("repeatable", run.is_repeatable);
+  if (run.pair) {
+    write_list(json, "pair", std::vector{run.pair->first, run.pair->second},
+               [&](std::size_t k) { json.value(wide(k)); });
+    write_list(json, "told_over_true", run.told_over_true, [&](double x) {
+      if (std::isnan(x))
+        json.raw("null");
+      else
+        json.value(x);
+    });
+  }
   json.end_object();
 }
 
@@ -218,7 +228,7 @@ std::string sweep_csv(const SweepResult& r) {
   csv +=
       ",status,cause,quantity,error_max,error_rms,error_end,reference_uncertainty,steps,rejected,newton_iterations,"
       "factorizations,flops_per_factorization,instructions,seconds_median,seconds_low,seconds_high,"
-      "cpu_seconds_median\n";
+      "cpu_seconds_median,is_pair,told_over_true\n";
   const auto number = [&csv](double x) {
     csv += ',';
     if (!std::isnan(x)) io::append_number(csv, x);
@@ -239,6 +249,8 @@ std::string sweep_csv(const SweepResult& r) {
       for (const double x : {run.figure("flops_per_factorization"), run.instructions.value_or(unmeasured), wall.median,
                              wall.low, wall.high, spread_of(run.cpu).median})
         number(x);
+      csv += run.pair ? ",true" : ",false";
+      number(run.pair ? run.told_over_true[q] : unmeasured);
       csv += '\n';
     }
   }
