@@ -82,7 +82,8 @@ int run_into_folder(const study::BatchCase& which, const CaseSettings& settings,
                     study::CaseReport& report) {
   records::Summary summary;
   io::RunDirectory directory(which.directory, std::string(version), origin, false,
-                             {scene.output.checkpoint, scene.output.checkpoint_time, settings.resume});
+                             {scene.output.checkpoint, scene.output.checkpoint_time, settings.resume},
+                             scene.output.formats);
   try {
     directory.open();
     summary = simulate(scene, settings, start, directory);

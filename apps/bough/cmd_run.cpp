@@ -99,7 +99,8 @@ int run(const RunArguments& arguments) {
   }
   io::RunDirectory directory(arguments.out.empty() ? std::filesystem::path(file.scene.name + ".out") : arguments.out,
                              std::string(version), std::move(origin), arguments.replace,
-                             {file.scene.output.checkpoint, file.scene.output.checkpoint_time, arguments.resume});
+                             {file.scene.output.checkpoint, file.scene.output.checkpoint_time, arguments.resume},
+                             file.scene.output.formats);
   if (arguments.resume && !arguments.replace && directory.has_all()) {
     if (!arguments.quiet)
       std::cout << file.scene.name << ": the run has ended, and its results stand in " << directory.directory().string()

@@ -4,6 +4,7 @@
 #include "bough/laws/formula.hpp"
 #include "bough/laws/make_law.hpp"
 #include "bough/scene/components.hpp"
+#include "formats/result_format.hpp"
 #include "named_numbers.hpp"
 #include "read_analysis.hpp"
 #include "read_scene_impl.hpp"
@@ -282,6 +283,11 @@ void Converter::settings() {
     scene.output.checks = o->find("checks")->truth;
     scene.output.checkpoint = number_or(*o, "checkpoint", 300.0);
     scene.output.checkpoint_time = number_or(*o, "checkpoint_time", 0.0);
+    if (const Value* formats = o->find("formats"))
+      for (const Value& name : formats->items) scene.output.formats.push_back(name.text);
+    for (const ResultFormat& format : result_formats())
+      scene.output.motion |= format.draws && std::count(scene.output.formats.begin(), scene.output.formats.end(),
+                                                        format.name) > 0;
   }
   if (const Value* w = sound("without"))
     for (const Value& name : w->items) scene.without.push_back(name.text);

@@ -3,6 +3,7 @@
 
 #include "bough/elements/coupling_kinds.hpp"
 #include "bough/scene/components.hpp"
+#include "formats/result_format.hpp"
 #include "schema_parts.hpp"
 
 namespace bough::io {
@@ -287,6 +288,18 @@ void add_loads(RuleTable& t) {
            "[rad/s]. Default: 0; a point mass, or a node without beams, turns with what holds it.")}));
 }
 
+/// Formats that a scene may ask for.
+RuleRef format_rule() {
+  std::vector<std::string> names;
+  std::string about;
+  for (const ResultFormat& format : result_formats()) {
+    if (format.name.empty()) continue;
+    names.push_back(format.name);
+    about += (about.empty() ? "" : "; ") + format.name + ": " + format.about;
+  }
+  return word_rule(lasting(about + ".").c_str(), std::move(names));
+}
+
 /// Fields of a sensor by what it is attached to, and those that its kind takes besides.
 Rule sensor_rule(const scene::SensorType& type) {
   using scene::SensorField;
@@ -391,7 +404,10 @@ void add_settings(RuleTable& t) {
            "Wall clock between two checkpoints [s], from which `bough run --resume` goes on; 0: there are none.",
            "300"),
        may("checkpoint_time", positive(""),
-           "Further checkpoints after so much time of the run [s], or load factor. Default: none.")}));
+           "Further checkpoints after so much time of the run [s], or load factor. Default: none."),
+       may("formats", array_rule("", format_rule()),
+           "Files for other programs, besides those of every run; batches write them for cases that have folders.",
+           "[]")}));
   t.named["expected"] = made(object_of(
       "A figure the run has to meet. It is taken from all accepted steps, whatever the stride of the output. A time "
       "within a "

@@ -6,6 +6,7 @@
 ///   errors.csv     errors of all columns at the times of the history, where the analysis wants them measured
 ///   motion.pvd, motion/frame_000000.vtu ..., motion.bin   where motion is recorded
 ///                  (a build without BOUGH_WITH_VTK writes motion.bin only)
+///   motion.glb     the moving structure for other viewers, where the scene asks for it
 ///   states.bin     states from which other scenes can start (stored_states.hpp)
 ///   summary.json   status, cost and checks of the run, its inputs, the hash of every file
 ///   manifest.json  the files in the directory that bough wrote (manifest.hpp)
@@ -17,16 +18,13 @@
 #include <string>
 #include <vector>
 
-#include "bough/io/history.hpp"
-#include "bough/io/motion_frames.hpp"
-#include "bough/io/npy_history.hpp"
 #include "bough/io/output_folder.hpp"
-#include "bough/io/stored_states.hpp"
 #include "bough/io/summary.hpp"
-#include "bough/io/write_vtu.hpp"
 #include "bough/records/run.hpp"
 
 namespace bough::io {
+
+class ResultWriter;
 
 /// When a run keeps checkpoints, and whether it goes on from one.
 struct CheckpointRule {
@@ -39,8 +37,10 @@ class RunDirectory final : public records::Recorder {
  public:
   /// Nothing is touched before `open` or `begin`: a run that does not start leaves no directory.
   /// replaces: whether results of another owner may be replaced (manifest.hpp).
+  /// formats: that are written besides those of every run (scene::Output::formats).
   RunDirectory(std::filesystem::path directory, std::string version, RunOrigin origin = {}, bool replaces = false,
-               CheckpointRule rule = {});
+               CheckpointRule rule = {}, std::vector<std::string> formats = {});
+  ~RunDirectory() override;
 
   /// Takes the directory for this run, or refuses it if it has foreign entries (OutputFolder). `begin` calls it if it
   /// was not called before.
@@ -76,7 +76,7 @@ class RunDirectory final : public records::Recorder {
   /// summary. Throws the first failure.
   void end(const records::Summary& summary) override;
 
-  [[nodiscard]] bool has_begun() const { return history_ != nullptr; }
+  [[nodiscard]] bool has_begun() const { return !writers_.empty(); }
   [[nodiscard]] bool has_ended() const { return has_ended_; }  ///< `end` was called, whether it went well or not
 
   /// For a run that was interrupted by `cause` before `end` (a recorder that could not write, say): ends it as failed
@@ -112,26 +112,20 @@ class RunDirectory final : public records::Recorder {
   /// The good ones of a folder, the later one last.
   std::vector<Checkpoint> checkpoints_in(const std::filesystem::path& place);
   std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file);
-  void take_files(records::Archive& archive, const records::HistoryHeader& header);
-  void forget_files();
+  void make_writers();
   std::string identity() const;
   void settle_checkpoints(records::RunStatus status);
   /// Gives the files their names; returns the first failure.
-  std::exception_ptr commit_files();
-  std::exception_ptr commit_text(const std::string& name, const std::string& text);
-  void list(FileRecord record);
+  std::exception_ptr commit_files(const records::Summary& summary);
 
   std::filesystem::path directory_;
   std::string version_;
   RunOrigin origin_;
   bool replaces_;
   std::unique_ptr<OutputFolder> folder_;
-  std::unique_ptr<HistoryWriter> history_;
-  std::unique_ptr<NpyHistoryWriter> twin_;
-  std::unique_ptr<MotionWriter> motion_;
-  std::unique_ptr<StateWriter> states_;
+  std::vector<std::string> wanted_;  ///< formats
+  std::vector<std::unique_ptr<ResultWriter>> writers_;
   records::MotionParts parts_;
-  std::string columns_;  ///< of columns.json
   bool has_ended_ = false, was_cut_off_ = false, can_go_on_ = false;
   CheckpointRule rule_;
   std::vector<Checkpoint> found_;  ///< to go on from: the last one, and where its files are not as they were, the other
@@ -140,10 +134,8 @@ class RunDirectory final : public records::Recorder {
   long num_checkpoints_ = 0;
   const std::chrono::steady_clock::time_point begun_at_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point told_at_ = begun_at_;
-  std::size_t synced_frames_ = 0;
   std::vector<std::string> told_;
-  std::vector<PvdEntry> frames_;
-  std::vector<FileRecord> frame_records_, records_;
+  std::vector<FileRecord> records_;
   std::vector<std::string> files_;
 };
 

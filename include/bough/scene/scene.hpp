@@ -428,6 +428,7 @@ struct Output {
   /// Between two checkpoints of a run: wall clock [s], 0: none at all; and time of the run [s], or load factor, 0: not
   /// by that.
   double checkpoint = 300.0, checkpoint_time = 0.0;
+  std::vector<std::string> formats;  ///< of files for other programs, besides those of every run
 };
 
 /// How a figure is derived from a quantity: its value at the end or at a given time, the extremes over the run and the
