@@ -42,7 +42,7 @@ class Checkpoints : public ::testing::Test {
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-      RunDirectory run(place, "1", origin, false, {1e9});
+      RunDirectory run(place, "1", origin, false, {1e9}, {"gltf"});
       run.begin(header);
       run.parts({});
       record(run, 0, 5);
@@ -57,7 +57,7 @@ class Checkpoints : public ::testing::Test {
   }
   /// Goes on, and expects the state of a checkpoint.
   void expect_to_go_on_from(const std::string& state, int row, const std::string& told = "") const {
-    RunDirectory run(place, "1", origin, false, {1e9, 0.0, true});
+    RunDirectory run(place, "1", origin, false, {1e9, 0.0, true}, {"gltf"});
     run.open();
     EXPECT_EQ(run.resume(header), state);
     std::string all;
@@ -75,7 +75,7 @@ class Checkpoints : public ::testing::Test {
     EXPECT_FALSE(fs::exists(place / "checkpoint.1") || fs::exists(place / "checkpoint.2"));
   }
   void SetUp() override {
-    RunDirectory run(whole, "1", origin);
+    RunDirectory run(whole, "1", origin, false, {}, {"gltf"});
     run.begin(header);
     run.parts({});
     record(run, 0, 15);
@@ -170,7 +170,7 @@ TEST_F(Checkpoints, are_found_by_time_as_states_are) {
   records::Archive archive;
   records::StoredState state = state_at(0.4, 0.2);
   archive(state);
-  RunDirectory run(place, "1", origin, false, {1e9});
+  RunDirectory run(place, "1", origin, false, {1e9}, {"gltf"});
   run.begin(header);
   run.parts({});
   record(run, 0, 5);
@@ -198,7 +198,7 @@ TEST_F(Checkpoints, are_found_by_time_as_states_are) {
 
 TEST_F(Checkpoints, stay_with_a_run_that_was_stopped_and_go_with_it_where_it_goes_on) {
   {
-    RunDirectory run(place, "1", origin, false, {1e9});
+    RunDirectory run(place, "1", origin, false, {1e9}, {"gltf"});
     run.begin(header);
     run.parts({});
     record(run, 0, 7);
@@ -216,7 +216,7 @@ TEST_F(Checkpoints, stay_with_a_run_that_was_stopped_and_go_with_it_where_it_goe
 TEST_F(Checkpoints, of_a_run_beside_good_results_are_found_there) {
   fs::copy(whole, place, fs::copy_options::recursive);
   {
-    RunDirectory run(place, "1", origin, false, {1e9});
+    RunDirectory run(place, "1", origin, false, {1e9}, {"gltf"});
     run.begin(header);
     run.parts({});
     record(run, 0, 7);
