@@ -150,34 +150,83 @@ std::string svg_of(double height, const std::string& inner) {
          "\" height=\"" + pixel(height) + "\"/>\n" + inner + "</svg>\n";
 }
 
-/// Histogram with equal intervals, about as many as the square root of the number of values.
-std::string histogram(const Measured& m) {
+bool is_error(const Measured& m) { return m.name.ends_with(study::error_ending); }
+
+/// Errors of the values of a measure, in their order; not a number where twins do not know it. Empty: none was measured.
+std::vector<double> errors_of(const Measured& m, const std::vector<Measured>& all) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Measured& other) {
+    return other.name == m.name + std::string(study::error_ending);
+  });
+  if (found == all.end()) return {};
+  std::map<std::uint32_t, double> error_of;
+  for (std::size_t k = 0; k < found->values.size(); ++k) error_of[found->cases[k]] = std::abs(found->values[k]);
+  std::vector<double> errors;
+  for (const std::uint32_t i : m.cases) {
+    const auto error = error_of.find(i);
+    errors.push_back(error != error_of.end() ? error->second : std::numeric_limits<double>::quiet_NaN());
+  }
+  return errors;
+}
+
+/// "errors: median 2e-05, largest 1e-03; 3 of 500 are not known"
+std::string errors_text(std::vector<double> errors) {
+  const std::size_t all = errors.size();
+  std::erase_if(errors, [](double e) { return std::isnan(e); });
+  std::sort(errors.begin(), errors.end());
+  std::string text = errors.empty() ? "no error is known" : "errors: median " +
+                                          io::rounded_text(errors[errors.size() / 2], 2) + ", largest " +
+                                          io::rounded_text(errors.back(), 2);
+  if (!errors.empty() && errors.size() < all)
+    text += "; " + std::to_string(all - errors.size()) + " of " + std::to_string(all) + " are not known";
+  return text;
+}
+
+/// Histogram with equal intervals, about as many as the square root of the number of values. Where errors are known a
+/// line in each column reaches from the number of values that lie in its interval whatever their errors are to that of
+/// values that may lie there.
+std::string histogram(const Measured& m, const std::vector<double>& errors) {
   constexpr double top = 34.0, bottom = 170.0;
   const double low = m.values.front(), high = m.values.back();
   const double root = std::sqrt(static_cast<double>(m.values.size()));
   const std::size_t bins = high > low ? static_cast<std::size_t>(std::clamp(root, 5.0, 40.0)) : 1;
-  std::vector<std::size_t> counts(bins);
-  for (const double x : m.values) {
-    const double share = high > low ? (x - low) / (high - low) : 0.0;
-    ++counts[std::min(bins - 1, static_cast<std::size_t>(share * static_cast<double>(bins)))];
+  std::vector<std::size_t> counts(bins), least(bins), largest(bins);
+  const auto bin_of = [&](double x) {
+    const double share = high > low ? std::clamp((x - low) / (high - low), 0.0, 1.0) : 0.0;
+    return std::min(bins - 1, static_cast<std::size_t>(share * static_cast<double>(bins)));
+  };
+  for (std::size_t k = 0; k < m.values.size(); ++k) {
+    const double x = m.values[k], e = errors.empty() || std::isnan(errors[k]) ? 0.0 : errors[k];
+    ++counts[bin_of(x)];
+    const std::size_t first = bin_of(x - e), last = bin_of(x + e);
+    for (std::size_t b = first; b <= last; ++b) ++largest[b];
+    if (first == last) ++least[first];
   }
-  const double most = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
+  const double most = static_cast<double>(*std::max_element(largest.begin(), largest.end()));
   const double width = (plot_right - plot_left) / static_cast<double>(bins);
   std::string inner = text_at(plot_left, 20.0, "ink head", "start", m.title());
   for (std::size_t k = 0; k < bins; ++k) {
-    if (counts[k] == 0) continue;
+    if (largest[k] == 0) continue;
     const double height = (bottom - top) * static_cast<double>(counts[k]) / most;
     const auto edge = [&](std::size_t i) {
       return io::rounded_text(low + (high - low) * static_cast<double>(i) / static_cast<double>(bins), 5);
     };
     inner +=
         rectangle(plot_left + width * static_cast<double>(k) + 0.5, bottom - height, std::max(1.0, width - 1.0), height,
-                  "s0 solid", edge(k) + " to " + edge(k + 1) + ": " + std::to_string(counts[k]) + " cases");
+                  "s0 solid",
+                  edge(k) + " to " + edge(k + 1) + ": " + std::to_string(counts[k]) + " cases" +
+                      (least[k] < largest[k] ? ", by their errors " + std::to_string(least[k]) + " to " +
+                                                   std::to_string(largest[k])
+                                             : ""));
+    if (least[k] == largest[k]) continue;
+    const auto to_y = [&](std::size_t n) { return bottom - (bottom - top) * static_cast<double>(n) / most; };
+    const double middle = plot_left + width * (static_cast<double>(k) + 0.5);
+    inner += line_element("mark", middle, to_y(least[k]), middle, to_y(largest[k]));
   }
+  if (!errors.empty()) inner += text_at(plot_left, bottom + 32.0, "soft tiny", "start", errors_text(errors));
   inner += text_at(plot_left - 6.0, top + 4.0, "soft tiny", "end", io::rounded_text(most, 6));
   inner += text_at(plot_left, bottom + 16.0, "soft tiny", "start", io::rounded_text(low, 5));
   inner += text_at(plot_right, bottom + 16.0, "soft tiny", "end", io::rounded_text(high, 5));
-  return svg_of(bottom + 26.0, inner);
+  return svg_of(bottom + (errors.empty() ? 26.0 : 42.0), inner);
 }
 
 /// Shortens a name so that it fits beside a plot.
@@ -278,7 +327,8 @@ std::string batch_page(const CaseTable& results, const std::string& title,
     constexpr std::size_t most_histograms = 24;
     std::vector<std::string> drawings;
     for (const Measured& m : measured)
-      if (!m.values.empty() && drawings.size() < most_histograms) drawings.push_back(histogram(m));
+      if (!m.values.empty() && !is_error(m) && drawings.size() < most_histograms)
+        drawings.push_back(histogram(m, errors_of(m, measured)));
     page.figures(drawings);
   }
   add_sensitivities(page, sensitivities);
