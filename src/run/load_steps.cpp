@@ -22,7 +22,9 @@ int LoadSteps::most_cuts() const {
   return options_.max_cuts + (options_.max_cuts == scene::Analysis{}.max_cuts ? more : 0);
 }
 
+/// What may help; nothing does where loads move what no stiffness holds.
 std::string LoadSteps::ways_on() const {
+  if (!plan_.mobility.free.empty()) return {};
   return "; tried were " + std::to_string(num_steps_) + (num_steps_ == 1 ? " load step" : " load steps") + ", halved " +
          std::to_string(most_cuts()) +
          " times. Ways on: \"arc_length\": {} follows the path past a limit point of the "

@@ -121,12 +121,15 @@ void add_of_mesh(const scene::Scene& scene, Twins& twins) {
 
 }  // namespace
 
-scene::Scene with_elements(const scene::Scene& scene, double factor) {
+scene::Scene with_elements(const scene::Scene& scene, double factor, const std::string& beam) {
   const auto times = [factor](int number) { return static_cast<int>(std::lround(number * factor)); };
   scene::Scene other = scene;
-  for (scene::Beam& b : other.beams) b.elements = times(b.elements);
-  for_each_place(other, [&times](std::string& name) {
-    if (const int k = inner_node(name); k >= 0) name = name.substr(0, name.rfind('.') + 1) + std::to_string(times(k));
+  for (scene::Beam& b : other.beams)
+    if (beam.empty() || b.name == beam) b.elements = times(b.elements);
+  for_each_place(other, [&](std::string& name) {
+    const int k = inner_node(name);
+    if (k < 0 || (!beam.empty() && name.substr(0, name.rfind('.')) != beam)) return;
+    name = name.substr(0, name.rfind('.') + 1) + std::to_string(times(k));
   });
   return other;
 }
@@ -148,6 +151,12 @@ Twin twin_in_time(const scene::Scene& scene, double factor) {
   Twin twin{plain(scene), false, factor, 1.0 / factor};
   twin.scene.analysis.step_size *= factor;
   return twin;
+}
+
+std::vector<Twin> twins_of_beams(const scene::Scene& scene) {
+  std::vector<Twin> twins;
+  for (const scene::Beam& b : scene.beams) twins.push_back({plain(with_elements(scene, 2.0, b.name)), true, 2.0, 1.0});
+  return twins;
 }
 
 Twins make_twins(const scene::Scene& scene) {

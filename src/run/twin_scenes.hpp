@@ -21,8 +21,9 @@ scene::ErrorsWanted errors_of(const scene::Scene& scene);
 /// "steps 2 times as long", "0.5 times as many elements".
 std::string text_of(const Twin& twin);
 
-/// The same scene with all numbers of elements times a factor; inner nodes that it names stay where they are.
-scene::Scene with_elements(const scene::Scene& scene, double factor);
+/// The same scene with the numbers of elements of all beams, or of one, times a factor; inner nodes that it names stay
+/// where they are.
+scene::Scene with_elements(const scene::Scene& scene, double factor, const std::string& beam = {});
 
 struct Twins {
   std::vector<Twin> members;
@@ -37,5 +38,8 @@ Twins make_twins(const scene::Scene& scene);
 
 /// A twin in time with steps of `factor` times the size.
 Twin twin_in_time(const scene::Scene& scene, double factor);
+
+/// For each beam a twin in which it alone has twice as many elements.
+std::vector<Twin> twins_of_beams(const scene::Scene& scene);
 
 }  // namespace bough::run

@@ -285,10 +285,50 @@ class RunWithItsTwins {
     if (times_.empty()) series_ = series_of(relay_.rows);
     if (relay_.goes_on)
       twins_.remarks.emplace_back("the run went on from a checkpoint: errors are those of the time since then");
-    auto errors = std::make_shared<records::MeasuredErrors>(measure_errors(
-        {scene_, summary_, std::move(series_), std::move(relay_.rows), std::move(runs_), twins_.remarks}));
+    auto errors = std::make_shared<records::MeasuredErrors>(
+        measure_errors({scene_, summary_, series_, std::move(relay_.rows), std::move(runs_), twins_.remarks}));
+    name_coarse_beams(*errors);
     judge_errors(*errors, errors_of(scene_), summary_);
     summary_.errors = std::move(errors);
+  }
+
+  /// Of columns whose error by the mesh is not resolved the cause is the beam whose elements change them most: in runs
+  /// in which one beam alone has twice as many.
+  void name_coarse_beams(records::MeasuredErrors& errors) {
+    constexpr std::size_t most_beams = 8;
+    const std::size_t beams = scene_.beams.size();
+    const auto is_open = [](const records::ErrorOf& e) {
+      return e.mesh.state == records::ErrorState::not_resolved && e.mesh.cause.empty();
+    };
+    if (beams < 2 || beams > most_beams || std::none_of(errors.columns.begin(), errors.columns.end(), is_open)) return;
+    if (static_cast<double>(beams) * estimate_run(scene_).seconds() > most_unasked_seconds) return;
+    twins_.members = twins_of_beams(scene_);
+    runs_.clear();
+    run_tasks({});
+    if (is_stopped_) return;
+    for (std::size_t c = 0; c < errors.columns.size(); ++c) {
+      if (!is_open(errors.columns[c])) continue;
+      std::vector<std::pair<double, std::string>> changes;
+      double all = 0.0;
+      for (std::size_t b = 0; b < beams; ++b) {
+        if (runs_[b].summary.status != RunStatus::ok) continue;
+        const Family pair({&runs_[b].series, &series_}, 1);
+        double most = 0.0;
+        for (const double d : pair.differences({ComparedColumns::Kind::number, c, 1}).fine)
+          most = std::max(most, std::abs(d));
+        changes.emplace_back(most, scene_.beams[b].name);
+        all += most;
+      }
+      std::sort(changes.rbegin(), changes.rend());
+      if (changes.empty() || !(all > 0.0)) continue;
+      const auto share = [all](double of) { return io::rounded_text(100.0 * of / all, 2) + " %"; };
+      std::string& cause = errors.columns[c].mesh.cause;
+      cause = "'" + changes[0].second + "' makes " + share(changes[0].first) + " of it";
+      constexpr double most_of_it = 0.7;
+      if (changes.size() > 1 && changes[0].first < most_of_it * all)
+        cause += ", '" + changes[1].second + "' " + share(changes[1].first);
+      cause += ", by runs in which one beam alone has twice as many elements";
+    }
   }
 
   const scene::Scene& scene_;

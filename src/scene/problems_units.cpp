@@ -104,7 +104,7 @@ void check_turning(ProblemList& list, const char* section, std::size_t i, const 
                      : "take smaller steps, or look at the unit: it is rad/s");
 }
 
-/// An angle that reaches a number of degrees that people give.
+/// An angle that reaches a number of degrees that people give, and does not turn on there.
 void check_angle(ProblemList& list, const char* section, std::size_t i, const std::string& key, const std::string& name,
                  const laws::Law& law) {
   constexpr std::array<double, 9> usual{30, 45, 60, 90, 120, 135, 180, 270, 360};
@@ -112,7 +112,9 @@ void check_angle(ProblemList& list, const char* section, std::size_t i, const st
   const double most = largest_over_time(list, law, false);
   const auto* const found =
       std::find_if(usual.begin(), usual.end(), [most](double x) { return std::abs(most - x) <= 1e-4 * x; });
-  if (found != usual.end())
+  const laws::LawValue end = law.at(list.scene.analysis.end_time);
+  const bool turns_on = end.rate != 0.0 && std::abs(end.value) >= (1.0 - 1e-4) * most;
+  if (found != usual.end() && !turns_on)
     list.warn(section, i, key, name, "this angle reaches " + text_of(*found) + " rad",
               "is it given in degrees? in a formula multiply by pi/180 = 0.017453292519943295");
 }

@@ -95,6 +95,7 @@ TEST(SceneHints, legal_numbers_of_other_units_are_told) {
        {arm(sound, ""), arm(sound, R"(, "drives": [{"law": {"expression": "1.57*sin(3*t) + 0"}}])"),
         arm(sound, R"(, "drives": [{"rate": true, "law": 314.159}])", R"("end_time": 1, "step_size": 1e-4)"),
         arm(sound, R"(, "drives": [{"law": {"expression": "100*t"}}])", R"("end_time": 10, "step_size": 1e-3)"),
+        arm(sound, R"(, "drives": [{"law": {"expression": "6*t"}}])", R"("end_time": 10, "step_size": 1e-3)"),
         arm(sound, "", R"("end_time": 20, "step_size": 0.01)")}) {
     const SceneFile file = read_scene_text(scene, "arm");
     EXPECT_TRUE(file.warnings.empty()) << scene << "\n" << texts(file.warnings);
