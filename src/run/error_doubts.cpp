@@ -75,6 +75,15 @@ void doubt_worst(const records::MeasuredErrors& errors, ErrorPart ErrorOf::*part
                                    share + others + (p.cause.empty() ? "" : "; " + p.cause) + "; " + words.remedy});
 }
 
+constexpr double most_ratio = 4.0, least_ratio = 2.0;  ///< of differences, which errors of second and first order have
+
+/// What twins tell of the error of a column that they know or on which they agree.
+double error_told(const ErrorPart& part) {
+  if (part.is_known() || !part.has_finer) return part.largest;
+  const double ratio = std::clamp(part.spread / part.largest, least_ratio, most_ratio);
+  return part.largest * ratio / (ratio - 1.0);
+}
+
 /// Columns that the estimate doubts. Without sensors of motion the estimate is one of all columns.
 std::vector<const ErrorOf*> doubted_columns(const records::MeasuredErrors& errors, const records::Summary& summary,
                                             const TrustLimits& limits) {
@@ -108,7 +117,7 @@ std::string left_out(const records::MeasuredErrors& errors, ErrorPart ErrorOf::*
 }  // namespace
 
 bool agrees(const ErrorPart& part, double bound) {
-  constexpr double small = 0.25, most_ratio = 4.0, least_ratio = 2.0, safety = 2.0;
+  constexpr double small = 0.25, safety = 2.0;
   if (part.state != ErrorState::not_resolved || part.largest > bound) return false;
   if (part.largest <= small * bound && part.spread <= bound) return true;
   const double ratio = part.largest > 0.0 ? std::min(part.spread / part.largest, most_ratio) : 0.0;
@@ -142,11 +151,13 @@ bool check_estimate(const records::MeasuredErrors& errors, const std::string& ru
     are_right = are_right && ((e->time.is_known() && e->time.largest <= bound) || agrees(e->time, bound));
   }
   if (!are_right && !are_known) return false;
-  const double most = difference_from_twins(errors, summary);
+  double most = 0.0;  // over the range
+  for (const ErrorOf* e : doubted)
+    if (e->range > 0.0) most = std::max(most, error_told(e->time) / e->range);
   std::erase_if(summary.doubts, [](const records::Doubt& d) { return d.about == estimate_beside_twins; });
   for (records::SensorError& s : summary.sensor_errors)
     if (const ErrorOf* const e = column_named(errors, s.column); e != nullptr && e->time.largest > 0.0) {
-      s.of_steps = e->time.largest;
+      s.of_steps = error_told(e->time);
       s.of_energy = 0.0;
     }
   if (are_right)

@@ -15,6 +15,7 @@ import sys
 program, folder = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
 folder.mkdir(parents=True, exist_ok=True)
 scene = {
+    "schema_version": 1,
     "gravity": [0, 0, -9.81],
     "materials": [{"name": "m", "young": 1e8, "poisson": 0.3, "density": 1000}],
     "sections": [{"name": "s", "shape": {"kind": "tube", "outer_radius": 0.05, "inner_radius": 0.03}, "material": "m"}],

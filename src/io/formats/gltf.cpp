@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "bough/io/json_text.hpp"
@@ -183,7 +184,7 @@ class Gltf final : public ResultWriter {
   }
 
   void checkpoint(records::Archive& archive, const records::HistoryHeader&) override {
-    archive(parts_, times_, numbers_, origin_);
+    archive(parts_, times_, numbers_, origin_, size_);
   }
 
   std::vector<std::string> commit(const records::Summary& summary, const ListFile& list) override {
@@ -228,14 +229,14 @@ class Gltf final : public ResultWriter {
     for (const records::BodyPose& b : frame.bodies) see(b.center);
     for (const records::Curve& c : frame.curves)
       for (const records::CurvePoint& p : c.points) see(p.position);
-    double size = 0.0, far = 0.0;
+    double far = 0.0;
     for (std::size_t c = 0; c < 3; ++c) {
       if (!(low[c] <= high[c])) return;
-      size = std::max(size, high[c] - low[c]);
+      size_ = std::max(size_, high[c] - low[c]);
       far = std::max({far, std::abs(low[c]), std::abs(high[c])});
     }
     constexpr double round_off = 6e-8, visible = 1e-4;
-    if (round_off * far <= visible * size || size == 0.0) return;
+    if (round_off * far <= visible * size_ || size_ == 0.0) return;
     for (std::size_t c = 0; c < 3; ++c) origin_[c] = 0.5 * (low[c] + high[c]);
   }
 
@@ -262,26 +263,37 @@ class Gltf final : public ResultWriter {
 
   void add_node(const double* x, const motion::Mat3<double>& R, double length) {
     motion::Quaternion<double> q = motion::quaternion_of(R);
-    const std::size_t per_picture = num_nodes() * numbers_per_node;
-    if (numbers_.size() >= per_picture) {  // of q and -q the one near that of the picture before
-      const float* before = numbers_.data() + (numbers_.size() - per_picture) + 3;
-      if (before[0] * q.v[0] + before[1] * q.v[1] + before[2] * q.v[2] + before[3] * q.w < 0.0) q = {-q.w, -q.v};
-    }
+    if (const auto before = rotation_before())  // of q and -q the one near that of the picture before
+      if (lanes::dot(before->v, q.v) + before->w * q.w < 0.0) q = {-q.w, -q.v};
     for (std::size_t c = 0; c < 3; ++c) numbers_.push_back(static_cast<float>(x[c] - origin_[c]));
     for (const double v : {q.v[0], q.v[1], q.v[2], q.w, length}) numbers_.push_back(static_cast<float>(v));
   }
 
-  /// The segment of the x axis from 0 to 1 on that of a link.
+  /// Of the node that is added next, in the picture before; nothing in the first one.
+  std::optional<motion::Quaternion<double>> rotation_before() const {
+    const std::size_t per_picture = num_nodes() * numbers_per_node;
+    if (numbers_.size() < per_picture) return std::nullopt;
+    const float* n = numbers_.data() + (numbers_.size() - per_picture) + 3;
+    return motion::Quaternion<double>{n[3], {{n[0], n[1], n[2]}}};
+  }
+
+  /// The segment of the x axis from 0 to 1 on that of a link, which does not turn about itself.
   void add_segment(const records::Link& link) {
     const motion::Vec3<double> d{
         {link.second[0] - link.first[0], link.second[1] - link.first[1], link.second[2] - link.first[2]}};
-    const double length = lanes::length_of(d);
+    constexpr double visible = 1e-6;  // of the structure's size; what joints leave open is far below it
+    const double length = lanes::length_of(d) > visible * size_ ? lanes::length_of(d) : 0.0;
     motion::Mat3<double> R = motion::Mat3<double>::identity();
     if (length > 0.0) {
       const motion::Vec3<double> x = (1.0 / length) * d;
-      const motion::Vec3<double> side =
-          std::abs(x[2]) < 0.9 ? motion::Vec3<double>{{0.0, 0.0, 1.0}} : motion::Vec3<double>{{0.0, 1.0, 0.0}};
-      motion::Vec3<double> y = lanes::cross(side, x);
+      motion::Vec3<double> y = std::abs(x[1]) < 0.9 ? motion::Vec3<double>{{0.0, 1.0, 0.0}}
+                                                    : motion::Vec3<double>{{0.0, 0.0, 1.0}};
+      if (const auto before = rotation_before()) {
+        const motion::Mat3<double> Q = motion::rotation_of(motion::normalise(*before));
+        const motion::Vec3<double> second{{Q(0, 1), Q(1, 1), Q(2, 1)}};
+        if (std::abs(lanes::dot(second, x)) < 0.99) y = second;
+      }
+      y = y - lanes::dot(y, x) * x;
       y = (1.0 / lanes::length_of(y)) * y;
       const motion::Vec3<double> z = lanes::cross(x, y);
       for (int r = 0; r < 3; ++r) {
@@ -352,6 +364,7 @@ class Gltf final : public ResultWriter {
   std::vector<double> times_;
   std::vector<float> numbers_;  ///< pictures x nodes x numbers_per_node
   std::array<double, 3> origin_{};
+  double size_ = 0.0;  ///< of the structure at the start
 };
 
 void write_numbers(JsonText& json, const char* name, std::initializer_list<double> numbers) {

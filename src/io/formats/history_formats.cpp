@@ -1,7 +1,6 @@
 /// The history as text and as an array, its columns, errors of its columns, and tables.
 #include "../measured_errors.hpp"
 #include "../result_tables.hpp"
-#include "bough/io/atomic_file.hpp"
 #include "bough/io/columns.hpp"
 #include "bough/io/digest.hpp"
 #include "bough/io/history.hpp"

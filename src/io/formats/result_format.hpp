@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bough/io/atomic_file.hpp"
 #include "bough/io/manifest.hpp"
 #include "bough/records/archive.hpp"
 #include "bough/records/run.hpp"

@@ -1,6 +1,5 @@
 #include "result_format.hpp"
 
-#include "bough/io/atomic_file.hpp"
 #include "bough/io/digest.hpp"
 
 namespace bough::io {
