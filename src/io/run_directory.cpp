@@ -61,8 +61,9 @@ bool RunDirectory::has_all() {
   const std::optional<Manifest> manifest = read_manifest(directory_);
   if (can_go_on || !manifest || manifest->state != FolderState::good || is_of_another(directory_, owner)) return false;
   std::vector<std::string> names;
-  for (const std::string& name : all_names())
-    if (name.back() != '*' && name != "progress.json") names.push_back(name);
+  for (const ResultFormat& format : result_formats())
+    for (const std::string& name : format.files)
+      if (name.back() != '*') names.push_back(name);
   try {
     const SummaryFile summary = read_unchanged(directory_, [&] { return read_whole_summary(directory_, names); });
     return summary.status == status_text(records::RunStatus::ok) && summary.scene_hash == origin_.scene_hash &&

@@ -15,6 +15,7 @@
 #include "bough/scene/analysis_kinds.hpp"
 #include "bough/schedule/side_by_side.hpp"
 #include "error_doubts.hpp"
+#include "trust.hpp"
 #include "twin_errors.hpp"
 
 namespace bough::run {
@@ -292,13 +293,13 @@ class RunWithItsTwins {
     summary_.errors = std::move(errors);
   }
 
-  /// Of columns whose error by the mesh is not resolved the cause is the beam whose elements change them most: in runs
+  /// Of columns with an error by the mesh that is doubted the cause is the beam whose elements change them most: in runs
   /// in which one beam alone has twice as many.
   void name_coarse_beams(records::MeasuredErrors& errors) {
     constexpr std::size_t most_beams = 8;
     const std::size_t beams = scene_.beams.size();
     const auto is_open = [](const records::ErrorOf& e) {
-      return e.mesh.state == records::ErrorState::not_resolved && e.mesh.cause.empty();
+      return e.mesh.state != records::ErrorState::round_off && e.mesh.largest > TrustLimits{}.sensor_error * e.range;
     };
     if (beams < 2 || beams > most_beams || std::none_of(errors.columns.begin(), errors.columns.end(), is_open)) return;
     if (static_cast<double>(beams) * estimate_run(scene_).seconds() > most_unasked_seconds) return;
@@ -323,7 +324,8 @@ class RunWithItsTwins {
       if (changes.empty() || !(all > 0.0)) continue;
       const auto share = [all](double of) { return io::rounded_text(100.0 * of / all, 2) + " %"; };
       std::string& cause = errors.columns[c].mesh.cause;
-      cause = "'" + changes[0].second + "' makes " + share(changes[0].first) + " of it";
+      if (!cause.empty()) cause += "; ";
+      cause += "'" + changes[0].second + "' makes " + share(changes[0].first) + " of it";
       constexpr double most_of_it = 0.7;
       if (changes.size() > 1 && changes[0].first < most_of_it * all)
         cause += ", '" + changes[1].second + "' " + share(changes[1].first);

@@ -297,6 +297,8 @@ std::span<const ElementBatch> Augmented::batches() const { return state_->batche
 void Augmented::rescale() { state_->scales_wanted = true; }
 const FactorStatus& Augmented::last_status() const { return state_->status; }
 std::vector<int> Augmented::blocks_not_unique() const { return state_->dependent.blocks(); }
+
+void Augmented::make_least(double* x) const { state_->dependent.make_least_unscaled(x); }
 void Augmented::multiply(const tree::Walker& walker, const double* x, double* y) const {
   state_->elements.multiply(walker, x, y);
 }

@@ -140,6 +140,13 @@ void DependentRows::make_least(double* x) const {
   }
 }
 
+void DependentRows::make_least_unscaled(double* x) const {
+  if (right_.cols() == 0) return;
+  for (std::size_t i = 0; i < is_constraint_.size(); ++i) x[i] /= scales_.column[i];
+  make_least(x);
+  for (std::size_t i = 0; i < is_constraint_.size(); ++i) x[i] *= scales_.column[i];
+}
+
 std::vector<int> DependentRows::blocks() const {
   std::vector<int> blocks;
   const auto& first_of = elements_.tree().unknown_begin;

@@ -34,6 +34,7 @@ class DependentRows {
   void make_consistent(double* b, SolveReport& report) const;
   /// Takes the part out of a scaled solution that no equation sees: multipliers become those of least norm.
   void make_least(double* x) const;
+  void make_least_unscaled(double* x) const;
   /// Blocks whose multipliers are not unique.
   std::vector<int> blocks() const;
   std::size_t num_doubles() const { return static_cast<std::size_t>(right_.size() + left_.size()); }

@@ -320,6 +320,14 @@ SolverCounters Hierarchical::counters() const {
 
 std::span<const ElementBatch> Hierarchical::batches() const { return state_->lanes.batches; }
 
+void Hierarchical::make_least(double* x) {
+  State& s = *state_;
+  if (s.null_space.deficiency() == 0) return;
+  double* const present = std::exchange(s.x, x);
+  s.project_multipliers();
+  s.x = present;
+}
+
 std::vector<int> Hierarchical::blocks_not_unique() const {
   const State& s = *state_;
   const std::size_t n = s.residual.size();

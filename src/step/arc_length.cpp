@@ -265,6 +265,7 @@ StepReport ArcLengthPath::follow(State& state, double length) {
     if (report.change > divergence)
       return fail("the iteration diverges: " + describe(system_, report.residual, options_.tolerance));
     system_.corrections().apply_along_tree(state, correction_.data(), 1.0);
+    system_.make_least(state);
     state.time += *df;
   }
   set_moved(state);

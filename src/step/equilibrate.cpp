@@ -83,6 +83,7 @@ StepReport try_load(System& system, State& state, const StepOptions& options, do
     if (report.change > divergence)
       return fail("the iteration diverges: " + describe(system, report.residual, options.tolerance));
     apply_damped(system, state, report.change);
+    system.make_least(state);
   }
   if (const auto t = check_shape(system, state)) return fail(t->text);
   if (const auto t = check_closed(system, state)) return fail(t->text);

@@ -79,6 +79,7 @@ StepReport iterate(System& system, State& state, const StepOptions& options, con
     state.begin_change();
     if (const auto t = newton.solve(solve::make_visit_work(correct))) return newton.fail(*t);
     if (const std::optional<Trouble> t = correction.complete(state, x)) return newton.fail(*t);
+    system.make_least(state);
     if (newton.will_be_converged()) return newton.converge();
   }
 }

@@ -110,6 +110,14 @@ solve::VisitWork System::in_visits() {
           this};
 }
 
+void System::make_least(State& state) {
+  if (!linear_.has_dependent_rows()) return;
+  least_.assign(work_.x.size(), 0.0);
+  for (const UnknownPlaces::Multiplier& at : places_.multipliers()) least_[at.unknown] = state.multipliers[at.multiplier];
+  linear_.make_least(least_.data());
+  for (const UnknownPlaces::Multiplier& at : places_.multipliers()) state.multipliers[at.multiplier] = least_[at.unknown];
+}
+
 std::optional<Trouble> System::evaluate(const State& state, const elements::Slopes& slopes, bool tangent) {
   PhaseTimer timer{clock_, counts_.assemble};
   begin(state, slopes, tangent);

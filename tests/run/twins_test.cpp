@@ -130,6 +130,35 @@ TEST(Twins, the_error_of_a_mesh_is_that_against_a_mesh_four_times_as_fine) {
   EXPECT_EQ(run.summary.not_judged.find("mesh"), std::string::npos) << run.summary.not_judged;
 }
 
+/// A cantilever of two beams that bends far, of order 1: one element at the clamp, sixteen beyond.
+std::string coarse_at_the_clamp(bool is_first) {
+  const std::string clamp = is_first ? "a" : "z", end = is_first ? "z" : "a";
+  return R"({"sections": [{"name": "s", "stiffness": {"EA": 1e6, "GA2": 1e6, "GA3": 1e6, "GJ": 10, "EI2": 10,
+                           "EI3": 10}}],
+    "nodes": [{"name": "a"}, {"name": "m", "position": [1, 0, 0]}, {"name": "z", "position": [2, 0, 0]}],
+    "beams": [{"name": "first", "section": "s", "start": "a", "end": "m", "order": 1, "elements": )" +
+         std::string(is_first ? "1" : "16") + R"(},
+              {"name": "second", "section": "s", "start": "m", "end": "z", "order": 1, "elements": )" +
+         std::string(is_first ? "16" : "1") + R"(}],
+    "joints": [{"name": "wall", "kind": "fixed", "first": "ground", "second": ")" +
+         clamp + R"("}],
+    "loads": [{"at": ")" +
+         end + R"(", "force": [0, 0, 20]}],
+    "sensors": [{"name": "tip", "kind": "position", "at": ")" +
+         end + R"("}],
+    "analysis": {"kind": "static", "load_steps": 10, "errors": {"mesh": true}}})";
+}
+
+TEST(Twins, a_mesh_that_is_doubted_names_the_beam_that_has_too_few_elements) {
+  for (const bool is_first : {true, false}) {
+    const MemoryRun run = run_in_memory(support::scene_of(coarse_at_the_clamp(is_first)));
+    ASSERT_TRUE(run.ok() && run.summary.errors) << run.text();
+    std::string doubts;
+    for (const records::Doubt& d : run.summary.doubts) doubts += d.text + "\n";
+    EXPECT_NE(doubts.find(is_first ? "'first' makes 9" : "'second' makes 9"), std::string::npos) << doubts;
+  }
+}
+
 TEST(Twins, numbers_of_elements_are_halved_where_they_and_named_inner_nodes_can_be) {
   const auto factors = [](const std::vector<std::string>& overrides) {
     std::vector<double> list;

@@ -106,6 +106,14 @@ class AnySolver {
   std::vector<int> blocks_not_unique() const {
     return std::visit([](auto& s) { return s.blocks_not_unique(); }, solver_);
   }
+  /// As of Hierarchical; forms that choose no multipliers where rows depend leave x as it is.
+  void make_least(double* x) {
+    std::visit(
+        [x](auto& s) {
+          if constexpr (requires { s.make_least(x); }) s.make_least(x);
+        },
+        solver_);
+  }
   /// The interfaces of the forms that have a tree of them, as of Hierarchical; of others none.
   std::vector<InterfaceReport> interfaces(const tree::Walker& walker, int widest, bool keeps_matrices = false) {
     if (auto* s = std::get_if<Augmented>(&solver_)) return s->interfaces(widest, keeps_matrices);

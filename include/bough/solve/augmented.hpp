@@ -50,6 +50,7 @@ class Augmented {
   const FactorStatus& last_status() const;
   SolverCounters counters() const;
   std::vector<int> blocks_not_unique() const;
+  void make_least(double* x) const;  ///< as of Hierarchical
   /// All interfaces but that of the root, which has none, after factor(). The condition is that of P^1/2 F P^1/2; NaN
   /// above `widest` unknowns. Dense singular values. keeps_matrices: those of interfaces up to this width.
   std::vector<InterfaceReport> interfaces(int widest, bool keeps_matrices = false) const;

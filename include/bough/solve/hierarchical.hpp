@@ -92,6 +92,10 @@ class Hierarchical {
   std::vector<InterfaceReport> interfaces(const tree::Walker& walker, int widest = std::numeric_limits<int>::max(),
                                           bool keeps_matrices = false);
   std::vector<int> blocks_not_unique() const;
+  /// Takes out of multipliers, which other solutions may have summed up, what no equation sees by the null vectors of
+  /// the last factorization: those of least norm remain. x: by unknown, zero but for multipliers, of which alone the
+  /// result may be used.
+  void make_least(double* x);
   /// Scale of every unknown and of every row (powers of two): scaled A = row_scale A column_scale.
   std::span<const double> column_scale() const;
   std::span<const double> row_scale() const;

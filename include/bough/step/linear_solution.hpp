@@ -93,6 +93,11 @@ class LinearSolution {
   /// The matrices and the factor at hand are of another state than the next one: they do not serve again.
   void forget_factor() { is_factored_ = is_of_matrices_ = is_trusted_ = false; }
 
+  /// Whether rows of constraints depend on each other, by the last factorization.
+  bool has_dependent_rows() const { return solver_->last_status().deficiency > 0; }
+  /// As of the solver.
+  void make_least(double* x) { solver_->make_least(x); }
+
   /// How much an iteration with the present factor shrank the changes when last seen; 1 when not known.
   double last_contraction() const { return contraction_; }
   void set_last_contraction(double contraction) { contraction_ = contraction; }

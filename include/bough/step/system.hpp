@@ -60,6 +60,10 @@ class System {
   /// Laws, gravity and prescribed frames at the time that was set last.
   const Instant& instant() const { return instant_; }
   const UnknownPlaces& places() const { return places_; }
+  /// Takes out of the multipliers of a state what no equation sees by the last factorization, where rows of constraints
+  /// depend on each other. Increments of least norm do not sum up to multipliers of least norm: null vectors turn with
+  /// the structure, and what predictors extrapolate along them grows with the motion, by e every 1/w at a rate w.
+  void make_least(State& state);
   ElementEvaluation& elements() { return elements_; }
   const ElementEvaluation& elements() const { return elements_; }
   const ResidualSums& sums() const { return sums_; }
@@ -138,6 +142,7 @@ class System {
   ElementEvaluation elements_;
   Signals signals_;
   RoundOff round_off_;
+  std::vector<double> least_;  ///< by unknown, of make_least
   Corrections corrections_;
   Workspace work_;
   std::vector<Tangents> remembered_;  ///< room for as many as the solver may hold something of, and one more

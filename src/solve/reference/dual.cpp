@@ -147,6 +147,8 @@ SolverCounters Dual::counters() const {
 
 std::vector<int> Dual::blocks_not_unique() const { return state_->dependent.blocks(); }
 
+void Dual::make_least(double* x) const { state_->dependent.make_least_unscaled(x); }
+
 std::vector<InterfaceReport> Dual::interfaces() const {
   const State& s = *state_;
   if (s.counters.factorizations == 0) return {};

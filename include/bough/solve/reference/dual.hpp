@@ -68,6 +68,7 @@ class Dual {
   const FactorStatus& last_status() const;
   SolverCounters counters() const;
   std::vector<int> blocks_not_unique() const;
+  void make_least(double* x) const;  ///< as of Hierarchical
   /// The one interface problem (subdomain: the root), after factor(). Its condition is that of the flexibility F,
   /// hybrid: of F + G_R T^-1 G_Q^T, with unit diagonal, on the multipliers that leave floating sub-domains at rest;
   /// NaN above 300 ties. Dense singular values.
