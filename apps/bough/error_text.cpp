@@ -37,14 +37,17 @@ std::string part_text(const ErrorPart& part) {
   return text + ", order " + rounded_text(part.order_of_largest, 2);
 }
 
-/// The sum of what is known of the error at the end; not a number where something is not known.
+/// The sum of what is known of the error at the end. Of a part that is not resolved the difference of its members counts,
+/// where it is no larger than what is known of the other part; else the sum is not a number.
 double error_at_end(const ErrorOf& e) {
-  double sum = 0.0;
+  double sum = 0.0, open = 0.0;
   for (const ErrorPart* part : {&e.time, &e.mesh}) {
-    if (part->state == ErrorState::not_resolved) return std::nan("");
-    sum += part->state == ErrorState::round_off ? part->largest : std::abs(part->at_end);
+    if (part->state == ErrorState::not_resolved)
+      open += part->largest;
+    else
+      sum += part->state == ErrorState::round_off ? part->largest : std::abs(part->at_end);
   }
-  return sum;
+  return open <= sum ? sum + open : std::nan("");
 }
 
 bool is_told(const ErrorOf& e) {

@@ -42,6 +42,7 @@ Converter::Side Converter::side(const Value& v, const std::string& at) {
   }
   if (s.to.to.empty()) fault(v.is(JsonKind::string) ? at : at + "/to", "has to name a node, a body or \"ground\"");
   if (s.to.to == "ground") s.to.to.clear();
+  if (s.to.to.find('.') != std::string::npos) inner_nodes.emplace_back(s.to.to, at);
   return s;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "bough/scene/outlines.hpp"
 #include "bough/scene/shapes.hpp"
@@ -289,6 +290,17 @@ void Converter::tell_meshes() {
     names += " and " + std::to_string(beams_without_mesh.size() - most_named) + " more beams";
   warnings.push_back({"/beams", "", "the mesh of " + names + " is chosen: twelve nodes beside the first, 24 on a curve",
                       "give \"elements\" and \"order\"; a run with twice as many elements tells the error of a mesh"});
+  for (const auto& [name, at] : inner_nodes) {
+    const std::string of = name.substr(0, name.rfind('.'));
+    if (std::find(beams_without_mesh.begin(), beams_without_mesh.end(), of) == beams_without_mesh.end()) continue;
+    const auto beam = std::find_if(scene.beams.begin(), scene.beams.end(), [&of](const auto& b) { return b.name == of; });
+    const double nodes = beam->elements * beam->order;
+    const double place = std::strtod(name.c_str() + name.rfind('.') + 1, nullptr) / nodes;
+    warnings.push_back({at, "\"" + name + "\"",
+                        "this is an inner node of a mesh that is chosen: it stands at " + rounded_text(place, 3) +
+                            " of the beam, and elsewhere in another mesh",
+                        "give the beam its \"elements\" and \"order\", or a node of its own to this place"});
+  }
 }
 
 void Converter::beam(const Value& v, const std::string& at) {

@@ -144,6 +144,8 @@ void Converter::measure(const Value& v, const std::string& at) {
     const Value* given = v.find(key);
     return given == nullptr ? std::nullopt : std::optional<double>(given->number);
   };
+  m.from = optional("from");
+  m.to = optional("to");
   m.time = optional("time");
   m.level = optional("level");
   m.target = optional("target");

@@ -32,6 +32,10 @@ void add_measure_rules(RuleTable& t) {
            "`cycles` "
            "equal cycles with the same sum of range^exponent.",
            "\"value\""),
+       may("from", not_negative(""),
+           "The part of the run that counts begins here [s] (statics: load factor); values there are interpolated between "
+           "the ends of steps. Default: at the start."),
+       may("to", not_negative(""), "It ends here. Default: at the end."),
        may("time", not_negative(""), "Of figure \"value\" [s] (statics: load factor). Default: at the end."),
        may("level", any, "Of figure \"period\": the value whose upward crossings are counted. Default: 0."),
        may("percent", number_rule("", 0.0, false, 100.0), "Of figure \"percentile\".", "50"),

@@ -143,9 +143,11 @@ std::string locked_text(const SceneLinkage& s, const LinkComponent& c, const std
             std::to_string(c.closing_rows) + ": 0 degrees of freedom)";
   const int culprit = locked.size() <= most_tried ? joint_that_locks(s.linkage, locked) : -1;
   if (culprit < 0) return text;
+  constexpr double seen = 1e-9;  // rad; an axis that is as good as parallel locks nothing by its direction
+  const double turned = angle_to_others(s.linkage, culprit, locked);
+  if (turned < seen) return text;
   char angle[64];
-  std::snprintf(angle, sizeof angle, "%.3g",
-                angle_to_others(s.linkage, culprit, locked) * 180.0 / 3.14159265358979323846);
+  std::snprintf(angle, sizeof angle, "%.3g", turned * 180.0 / 3.14159265358979323846);
   return text + "; the axis of joint '" + s.linkage.edges()[at(culprit)].name + "' stands " + angle +
          " degrees off those of the others: turned back, or as a spherical joint, it lets them move";
 }

@@ -11,7 +11,7 @@ namespace bough::run {
 using scene::MeasureKind;
 
 bool Measures::is_figure(const scene::Measure& measure) {
-  return measure.expression.empty() && measure.kind <= MeasureKind::period;
+  return measure.expression.empty() && measure.kind <= MeasureKind::period && !measure.from && !measure.to;
 }
 
 Measures::Measures(const scene::Scene& scene, const records::HistoryHeader& header) {
@@ -61,6 +61,26 @@ std::optional<double> value_at(const Series& s, double time) {
   if (next == 0 || s.times[next] == time) return s.values[next];
   const double part = (time - s.times[next - 1]) / (s.times[next] - s.times[next - 1]);
   return std::lerp(s.values[next - 1], s.values[next], part);
+}
+
+/// The part of a series within the window of a measure, with straight lines to its ends; nothing where the run does not
+/// reach over it.
+struct PartOfSeries {
+  std::vector<double> times, values;
+};
+std::optional<PartOfSeries> part_of(const scene::Measure& m, const Series& s) {
+  const double from = m.from.value_or(s.times.front()), to = m.to.value_or(s.times.back());
+  const std::optional<double> first = value_at(s, from), last = value_at(s, to);
+  if (!first || !last || !(from < to)) return std::nullopt;
+  PartOfSeries part{{from}, {*first}};
+  for (std::size_t k = 0; k < s.times.size(); ++k) {
+    if (s.times[k] <= from || s.times[k] >= to) continue;
+    part.times.push_back(s.times[k]);
+    part.values.push_back(s.values[k]);
+  }
+  part.times.push_back(to);
+  part.values.push_back(*last);
+  return part;
 }
 
 /// Mean time between upward crossings of a level.
@@ -200,6 +220,7 @@ std::optional<double> value_of_measures(const scene::Measure& measure,
 
 bool is_indicator(const scene::Measure& measure) {
   if (measure.expression.empty()) return false;
+  if (measure.from || measure.to) return false;
   const bool is_of_one_step = measure.kind == MeasureKind::max || measure.kind == MeasureKind::min ||
                               (measure.kind == MeasureKind::value && !measure.time);
   if (!is_of_one_step) return false;
@@ -214,7 +235,12 @@ std::vector<records::MeasureResult> Measures::results() const {
     const std::vector<double>& values = quantities_[m.quantity].values;
     records::MeasureResult r{m.given->name, {}};
     const bool is_finite = std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-    if (!values.empty() && is_finite) r.value = figure_of(*m.given, {times_, values});
+    if (!values.empty() && is_finite) {
+      if (!m.given->from && !m.given->to)
+        r.value = figure_of(*m.given, {times_, values});
+      else if (const auto part = part_of(*m.given, {times_, values}))
+        r.value = figure_of(*m.given, {part->times, part->values});
+    }
     if (r.value && !std::isfinite(*r.value)) r.value.reset();
     all.push_back(std::move(r));
   }

@@ -210,6 +210,8 @@ bool Simulation::has_ended() const {
 
 double Simulation::time() const { return impl_->state.time; }
 
+double Simulation::size() const { return impl_->plan.length_scale; }
+
 const records::HistoryHeader& Simulation::header() const { return impl_->recording->summary().header; }
 
 const std::vector<double>& Simulation::values() {

@@ -84,12 +84,25 @@ class Scales {
     };
     for (const auto& values : run.series.values) see(values);
     for (const auto& row : run.rows) see(row.values);
+    compare_motions(run);
     compare_forces(run.summary.checks.energy_scale);
   }
   std::string unit(std::size_t c) const { return c < header_.about.size() ? header_.about[c].unit : std::string(); }
   double of(std::size_t c) const { return largest_.at(unit(c)); }
 
  private:
+  /// What does not move but for round-off is compared with the structure, and a rate with what the structure's motion
+  /// makes of it.
+  void compare_motions(const RunWithTwins& run) {
+    largest_["m"] = std::max(largest_["m"], run.size);
+    largest_["rad"] = std::max(largest_["rad"], 1.0);
+    const double time = run.series.times.empty() ? 0.0 : run.series.times.back() - run.series.times.front();
+    if (!scene::type_of(run.scene.analysis.kind).integrates || !(time > 0.0)) return;
+    double& turning = largest_["rad/s"];
+    turning = std::max(turning, 1.0 / time);
+    largest_["m/s"] = std::max(largest_["m/s"], run.size * turning);
+  }
+
   /// A force that is zero but for round-off is compared with moments over the size of the structure, as far as sensors
   /// tell it, and with a part of the energy over it (as reactions are, judgement.cpp); a moment with the same.
   void compare_forces(double energy) {

@@ -23,6 +23,7 @@ struct RunWithTwins {
   std::vector<records::HistoryRow> rows;  ///< of the history
   std::vector<TwinRun> twins;
   std::vector<std::string> remarks;
+  double size = 0.0;  ///< of the structure [m]
 };
 
 /// What the twins tell. Precondition: the run is ok.

@@ -201,6 +201,7 @@ class RunWithItsTwins {
         last_ = p;
         return !progress_ || progress_(p);
       });
+      size_ = simulation.size();
       (void)simulation.run();
       summary_ = simulation.finish();
       is_stopped_ = summary_.status != RunStatus::ok;
@@ -268,7 +269,7 @@ class RunWithItsTwins {
   }
 
   bool decides(const scene::Scene& wanted, const std::string& runs) {
-    const records::MeasuredErrors errors = measure_errors({wanted, summary_, series_, relay_.rows, runs_, {}});
+    const records::MeasuredErrors errors = measure_errors({wanted, summary_, series_, relay_.rows, runs_, {}, size_});
     undecided_ = "runs in " + runs + " differ by up to " + io::rounded_text(100.0 * difference_from_twins(errors, summary_), 2) +
                  " % of a range, and not as errors of second order do";
     return check_estimate(errors, runs, summary_);
@@ -287,7 +288,7 @@ class RunWithItsTwins {
     if (relay_.goes_on)
       twins_.remarks.emplace_back("the run went on from a checkpoint: errors are those of the time since then");
     auto errors = std::make_shared<records::MeasuredErrors>(
-        measure_errors({scene_, summary_, series_, std::move(relay_.rows), std::move(runs_), twins_.remarks}));
+        measure_errors({scene_, summary_, series_, std::move(relay_.rows), std::move(runs_), twins_.remarks, size_}));
     name_coarse_beams(*errors);
     judge_errors(*errors, errors_of(scene_), summary_);
     summary_.errors = std::move(errors);
@@ -343,6 +344,7 @@ class RunWithItsTwins {
   MemberSeries series_;
   std::vector<TwinRun> runs_;
   records::Summary summary_;
+  double size_ = 0.0;      ///< of the structure [m]
   std::string undecided_;  ///< what twins tell that do not decide on the doubt of the estimate
   records::Progress last_;
   std::atomic<bool> is_stopped_{false}, has_ended_{false};

@@ -177,6 +177,24 @@ void check_quantity(ProblemList& list, const char* section, std::size_t i, const
                           : "did you mean \"" + name + "." + near + "\"?");
 }
 
+/// The part of the run that a measure is taken from.
+void check_window(ProblemList& list, std::size_t i, const Measure& m) {
+  const Analysis& analysis = list.scene.analysis;
+  const bool is_static = analysis.kind == AnalysisKind::statics;
+  const double end = is_static ? 1.0 : analysis.end_time, from = m.from.value_or(0.0), to = m.to.value_or(end);
+  const char* const key = m.from ? "from" : "to";
+  if (m.is_of_measures)
+    list.add("measures", i, key, text_of(m.from ? from : to), "a formula of other measures is taken from no part of the run",
+             "give it to the measures in \"of\"");
+  else if (analysis.arc_length)
+    list.add("measures", i, key, text_of(m.from ? from : to), "along a path by arc length a load factor can come twice");
+  else if (to > end)
+    list.add("measures", i, "to", text_of(to), "the run ends before, at " + text_of(end));
+  else if (!(from < to))
+    list.add("measures", i, key, text_of(m.from ? from : to), "the part of the run from " + text_of(from) + " to " +
+             text_of(to) + " is empty");
+}
+
 void check_measure(ProblemList& list, std::size_t i) {
   const Measure& m = list.scene.measures[i];
   if (m.expression.empty()) check_quantity(list, "measures", i, "quantity", m.quantity);
@@ -190,6 +208,7 @@ void check_measure(ProblemList& list, std::size_t i) {
     list.add("measures", i, "figure", figure, "this is a figure of time, and the analysis is static");
   if (m.kind == MeasureKind::equivalent_range && is_static && !m.cycles)
     list.add("measures", i, "", "", "needs the key \"cycles\": a static analysis has no seconds to count cycles in");
+  if (m.from || m.to) check_window(list, i, m);
   if (m.time && m.kind != MeasureKind::value)
     list.add("measures", i, "time", text_of(*m.time), "a " + figure + " is one of the whole run, not of a time");
 }

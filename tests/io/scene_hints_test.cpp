@@ -102,6 +102,20 @@ TEST(SceneHints, legal_numbers_of_other_units_are_told) {
   }
 }
 
+// Twelve nodes beside the first: the fourth stands at a third of the beam, wherever the load was meant to act.
+TEST(SceneHints, an_inner_node_of_a_mesh_that_is_chosen_is_told_with_its_place) {
+  const auto scene = [](const std::string& mesh) {
+    return R"({"schema_version": 1, "nodes": [{"name": "a"}, {"name": "z", "position": [4, 0, 0]}],
+      "sections": [{"name": "s", "stiffness": {"EA": 1, "GA2": 1, "GA3": 1, "GJ": 1, "EI2": 1, "EI3": 1}}],
+      "beams": [{"name": "b", "section": "s", "start": "a", "end": "z")" +
+           mesh + R"(}], "joints": [{"name": "j", "kind": "fixed", "first": "ground", "second": "a"}],
+      "loads": [{"at": "b.4", "force": [0, 0, 1]}], "analysis": {"kind": "static"}})";
+  };
+  const SceneFile chosen = read_scene_text(scene(""), "beam"), given = read_scene_text(scene(R"(, "elements": 8)"), "beam");
+  EXPECT_TRUE(says(chosen.warnings, {"/loads/0/at", "b.4", "0.333", "elements"})) << texts(chosen.warnings);
+  EXPECT_FALSE(says(given.warnings, {"b.4"})) << texts(given.warnings);
+}
+
 TEST(SceneHints, numbers_beyond_computing_are_refused) {
   const Hint faults[] = {
       {"force", "\"force\": [1, 0, 0]", "\"force\": [1e300, 0, 0]", {"/loads/0/force", "push", "too large"}},

@@ -146,6 +146,22 @@ TEST(Measures, a_run_measures_all_accepted_steps_whatever_the_stride) {
   EXPECT_FALSE(by_name["none"].has_value());
 }
 
+TEST(Measures, a_measure_may_be_taken_from_a_part_of_the_run) {
+  const support::Outcome run = support::run(support::scene_of(std::string("{") + oscillator + R"x(, "measures": [
+      {"name": "mean", "quantity": "a.x", "figure": "mean", "from": 0.25, "to": 0.75},
+      {"name": "top", "quantity": "a.x", "figure": "max", "from": 0.3001, "to": 0.6999},
+      {"name": "last", "quantity": "a.x", "to": 1.1003},
+      {"name": "cycles", "quantity": "a.x", "figure": "cycles", "range": 1.9, "from": 2},
+      {"name": "speed", "expression": "abs(v)", "of": {"v": "v.vx"}, "figure": "max", "from": 0.9, "to": 1.1}]})x"));
+  ASSERT_TRUE(run.ok()) << run.summary.cause;
+  const auto value = [&run](std::size_t k) { return run.summary.measures.at(k).value.value(); };
+  EXPECT_NEAR(value(0), 1.0 - 2.0 / pi, 1e-3);
+  EXPECT_NEAR(value(1), 1.0 + std::cos(2.0 * pi * 0.3001), 1e-3);
+  EXPECT_NEAR(value(2), 1.0 + std::cos(2.0 * pi * 1.1003), 1e-3);
+  EXPECT_EQ(value(3), 2.0);
+  EXPECT_NEAR(value(4), 2.0 * pi * std::sin(0.2 * pi), 5e-3);
+}
+
 TEST(Measures, a_measure_may_have_a_value_that_it_has_to_be) {
   const support::Outcome run = support::run(support::scene_of(std::string("{") + oscillator + R"x(, "measures": [
       {"name": "mean", "quantity": "a.x", "figure": "mean", "value": 1, "tolerance": 1e-3, "source": "by hand"},
@@ -236,6 +252,10 @@ TEST(Measures, what_is_wrong_with_a_measure_is_told) {
       {R"({"name": "m", "quantity": "a.x", "figure": "max", "time": 1})", "whole run"},
       {R"({"name": "m", "quantity": "a.x", "value": 1})", "needs a tolerance"},
       {R"({"name": "m", "quantity": "a.x", "value": 0, "relative_tolerance": 1})", "part of the value, which is 0"},
+      {R"({"name": "m", "quantity": "a.x", "from": 3, "to": 2})", "is empty"},
+      {R"({"name": "m", "quantity": "a.x", "figure": "mean", "to": 5})", "the run ends before, at 4"},
+      {R"({"name": "n", "quantity": "a.x"}, {"name": "m", "expression": "n", "of": {"n": "n"}, "from": 1})",
+       "no part of the run"},
       {R"({"name": "m", "quantity": "a.x", "tolerance": 1})", "goes with a \"value\""}};
   for (const auto& [measure, word] : cases) {
     try {

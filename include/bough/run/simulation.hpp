@@ -36,6 +36,7 @@ class Simulation {
   /// True if nothing more is simulated: the end was reached, a step failed, or a callback has stopped the run.
   bool has_ended() const;
   double time() const;  ///< [s], or the load factor
+  double size() const;  ///< of the structure at the start [m]
 
   /// Names and units of all components of sensors, and their present values in the same order.
   const records::HistoryHeader& header() const;

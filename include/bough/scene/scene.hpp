@@ -478,8 +478,9 @@ struct Measure {
   std::vector<std::pair<std::string, std::string>> names;  ///< in the expression, each with its quantity
   bool is_of_measures = false;  ///< these quantities are earlier measures, and the value is that of the expression
   MeasureKind kind = MeasureKind::value;
-  std::optional<double> time;    ///< of `value`; none: at the end
-  std::optional<double> level;   ///< of `period`; none: 0
+  std::optional<double> from, to;  ///< part of the run that counts; none: its start, its end
+  std::optional<double> time;      ///< of `value`; none: at the end
+  std::optional<double> level;     ///< of `period`; none: 0
   double percent = 50.0;         ///< of `percentile`
   double band = 0.0;             ///< of `settling_time`
   std::optional<double> target;  ///< of `settling_time`; none: the value at the end
