@@ -52,6 +52,24 @@ def explains():
     expect(status == 2 and "\x1b" not in told and len(told) < 1000, "a word that would act on the terminal")
 
 
+def codes():
+    """Every problem and warning of the scenes that make no sense has a code of the manual, and not the one that is left."""
+    sys.path.insert(0, str(SOURCE / "tests" / "tools" / "campaign"))
+    import nonsense_scenes
+
+    listed = re.findall(r"^## ([a-z-]+)$", (SOURCE / "data/manual/guides/messages.md").read_text(), re.MULTILINE)
+    met = set()
+    for case in nonsense_scenes.all_cases():
+        text = case.scene if isinstance(case.scene, str) else json.dumps(case.scene)
+        pathlib.Path("nonsense.json").write_text(text)
+        for line in run("check", "nonsense.json")[1].splitlines():
+            if line.startswith("nonsense.json: "):
+                code = re.search(r" \[([a-z-]+)\]$", line)
+                expect(code and code.group(1) in listed and code.group(1) != "contradiction", "no code", line)
+                met.add(code.group(1) if code else "")
+    expect(len(met) >= 20, f"only {met} were met")
+
+
 def writes_scenes():
     listed = [line.split()[0] for line in run("new")[1].splitlines()]
     files = sorted(path.stem for path in (SOURCE / "data" / "new").glob("*.json"))
@@ -120,6 +138,7 @@ def main():
     os.chdir(folder)
     try:
         explains()
+        codes()
         writes_scenes()
         fixes()
     finally:
