@@ -81,6 +81,7 @@ class Report {
   std::map<std::string, std::size_t> of_copies_;  ///< index in its list, by list, place and rule
   std::vector<Placed> problems_, warnings_;
   std::optional<DefinedNames> names_;  ///< made where a fault is about a name
+  std::size_t names_compared_ = 0;     ///< with misspelt ones
   struct SecondPlace {
     std::size_t problem, offset, length;
   };

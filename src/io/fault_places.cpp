@@ -55,9 +55,11 @@ void Report::suggest_fix(Placed& placed) {
   if (p.code == "not-a-number" && is_number_text(placed.word)) {
     p.fix = Fix{placed.offset, placed.length, placed.word};
   } else if (p.code == "unknown-name") {
+    constexpr std::size_t most_compared = 2'000'000;  // some tenths of a second
     const std::string near = suggested_in(p.hint);
-    if (!near.empty() && only_name(placed.word, names().all()) == near)
-      p.fix = Fix{placed.offset, placed.length, quoted_json(near)};
+    if (near.empty() || names_compared_ > most_compared) return;
+    names_compared_ += names().all().size();
+    if (only_name(placed.word, names().all()) == near) p.fix = Fix{placed.offset, placed.length, quoted_json(near)};
   }
 }
 

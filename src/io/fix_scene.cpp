@@ -5,8 +5,9 @@
 namespace bough::io {
 namespace {
 
-constexpr int most_rounds = 200;          // a text that is not JSON shows one fault at a time
-constexpr std::size_t context_lines = 3;  // as diff -u
+constexpr int most_rounds = 200;               // a text that is not JSON shows one fault at a time
+constexpr std::size_t most_read = 64u << 20u;  // bytes of all rounds: some tens of seconds
+constexpr std::size_t context_lines = 3;       // as diff -u
 
 std::vector<std::string_view> lines_of(std::string_view text) {
   std::vector<std::string_view> lines;
@@ -41,9 +42,11 @@ std::string with_fixes(std::string_view text, std::vector<Fix> fixes) {
 
 FixedScene fixed_scene(std::string_view text, const std::filesystem::path& folder) {
   FixedScene result{std::string(text), {}, {}};
+  std::size_t num_read = 0;
   for (int round = 0;; ++round) {
+    num_read += result.text.size();
     result.file = read_scene_text(result.text, "scene", {}, folder);
-    if (round == most_rounds) return result;
+    if (round == most_rounds || num_read > most_read) return result;
     std::vector<Fix> fixes;
     for (const Problem& p : result.file.problems) {
       if (!p.fix) continue;

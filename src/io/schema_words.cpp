@@ -7,6 +7,7 @@
 
 #include "bough/io/number_text.hpp"
 #include "bough/io/schema_rule.hpp"
+#include "kinematics_rules.hpp"
 #include "study_rules.hpp"
 #include "sweep_rules.hpp"
 
@@ -147,6 +148,8 @@ void visit_schemas(const Visit& visit) {
   WordWalk(scene_rules(), "scene", visit).walk();
   WordWalk(sweep_rules(), "sweep", visit).walk();
   WordWalk(study_rules(), "study", visit).walk();
+  WordWalk(frame_rules(), "chain of frames", visit).walk();
+  WordWalk(motion_rules(), "motion", visit).walk();
 }
 
 }  // namespace

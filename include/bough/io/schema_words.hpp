@@ -7,7 +7,7 @@
 namespace bough::io {
 
 struct SchemaEntry {
-  std::string format;  ///< "scene", "sweep" or "study"
+  std::string format;  ///< "scene", "sweep", "study", "chain of frames" or "motion"
   std::string place;   ///< "springs[].stiffness"; of a value, the key that it stands for: "joints[].kind"
   std::string value;   ///< what may stand there: "number >= 0, required"; of a value, its keys
   std::string about;   ///< sentences with the unit
