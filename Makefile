@@ -10,7 +10,7 @@ CTEST := ctest --test-dir build/release --output-on-failure --no-tests=error -j 
 # What installs missing packages; "make NEED=true" leaves that out.
 NEED := sh cmake/install_dependencies.sh
 
-.PHONY: help run build test bench study stress gallery manual picture fuzz check-all dispatch install lint format clean
+.PHONY: help run build test bench study stress gallery manual picture fuzz check-all dispatch deb install lint format clean
 
 help:
 	@echo "make run        install what is missing, build, simulate $(SCENARIO), write and draw $(RESULTS)"
@@ -26,6 +26,7 @@ help:
 	@echo "make lint       format, include arrows, file lengths;  make format repairs the first"
 	@echo "make check-all  everything: both compilers, slow tests, sanitizers, coverage, browser (an hour or more)"
 	@echo "make dispatch   build one program for every x86-64 (build/dispatch) and test it; three times the time of build"
+	@echo "make deb        a Debian package for every x86-64 in build/deb: program, library, Python, manual"
 	@echo "make install    install into PREFIX ($(PREFIX)), with sudo only if the folder needs it"
 	@echo "make clean      remove build/"
 	@echo "Packages that are missing are listed, and then installed by apt-get, under sudo where that is needed."
@@ -102,12 +103,22 @@ dispatch:
 install: build
 	@if command -v mkdocs >/dev/null; then cmake --build build/release --target bough_manual; \
 	else echo "mkdocs is not there: the manual is installed as Markdown"; fi
+	@if command -v python3 >/dev/null; then cmake --build build/release --target bough_shell; fi
 	@may=yes; mkdir -p "$(PREFIX)" 2>/dev/null || may=no; \
 	for folder in "$(PREFIX)" "$(PREFIX)"/bin "$(PREFIX)"/include "$(PREFIX)"/lib "$(PREFIX)"/share; do \
 	  test ! -e "$$folder" || test -w "$$folder" || may=no; done; \
 	if [ $$may = yes ]; then cmake --install build/release --prefix "$(PREFIX)"; \
 	else echo "$(PREFIX) cannot be written by this user: installing under sudo"; \
 	  sudo cmake --install build/release --prefix "$(PREFIX)"; fi
+
+# Of the program for every x86-64, so that it may be passed on.
+deb:
+	@$(NEED) build test manual deb
+	cmake --preset dispatch
+	cmake --build build/dispatch --parallel $(JOBS)
+	cmake --build build/dispatch --target bough_manual bough_shell
+	cpack --config build/dispatch/CPackConfig.cmake -B build/deb
+	@ls build/deb/*.deb
 
 clean:
 	rm -rf build

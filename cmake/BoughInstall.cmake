@@ -29,6 +29,12 @@ if(BOUGH_BUILD_APPS)
       $<TARGET_FILE:bough> "${_manual}" VERBATIM)
     install(DIRECTORY "${_manual}/site/" DESTINATION "${CMAKE_INSTALL_DOCDIR}/manual" OPTIONAL)
     install(FILES "${_manual}/manual.html" DESTINATION "${CMAKE_INSTALL_DOCDIR}" OPTIONAL)
+    # Pages of `man` and completion of words in the shell, where the target `bough_shell` has made them.
+    set(_shell "${CMAKE_CURRENT_BINARY_DIR}/shell")
+    add_custom_target(bough_shell COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/data/manual/make/shell.py"
+      $<TARGET_FILE:bough> "${_shell}" "${PROJECT_VERSION}" VERBATIM)
+    install(DIRECTORY "${_shell}/man1/" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" OPTIONAL)
+    install(DIRECTORY "${_shell}/completions/" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" OPTIONAL)
   endif()
 endif()
 
@@ -46,3 +52,5 @@ if(BUILD_SHARED_LIBS AND NOT BOUGH_DISPATCH)
         \"these. Remove them first: \${older}\")
     endif()")
 endif()
+
+include(BoughPackage)

@@ -6,7 +6,7 @@
 #   asan   clang with its sanitizers                    tsan   asan, and what rebuilding TBB from source needs
 #   browser  a browser without a screen, for the pages of reports
 #   vtk    VTK for Python, which reads what was written for it
-#   manual mkdocs, which renders the manual
+#   manual mkdocs, which renders the manual             deb    dpkg-shlibdeps, which finds what a package needs
 #   all    everything, with coverage and clang-tidy for `make check-all`
 # dpkg is asked first: when nothing is missing, neither the network nor root is needed. With --list the packages are
 # printed and nothing is done.
@@ -26,8 +26,9 @@ packages_of() {
     browser) echo chromium python3 ;;
     vtk) echo python3-vtk9 python3-numpy ;;
     manual) echo mkdocs ;;
+    deb) echo dpkg-dev file fakeroot ;;
     all)
-      for group in build test bench lint asan tsan browser vtk manual; do packages_of $group; done
+      for group in build test bench lint asan tsan browser vtk manual deb; do packages_of $group; done
       echo ccache gcovr clang-tidy-14 ;;
     *)
       echo "install_dependencies.sh: no group '$1'" >&2

@@ -94,6 +94,17 @@ struct CheckArguments {
   std::filesystem::path scene;
   std::vector<std::string> overrides;
   double memory_limit = 0.0;  ///< of a run [bytes]; 0: what is available
+  bool fix = false;           ///< change in the file what is sure
+  bool dry_run = false;       ///< of fix: the difference is printed, and nothing is written
+};
+struct ExplainArguments {
+  std::string word;
+  std::string verb_help;           ///< of the verb of this name; empty: there is none
+  std::vector<std::string> verbs;  ///< of the program
+};
+struct NewArguments {
+  std::string kind;           ///< empty: the kinds are listed
+  std::filesystem::path out;  ///< empty: ./<kind>.json; "-": standard output
 };
 struct ExpandArguments {
   std::filesystem::path scene;
@@ -153,6 +164,8 @@ int profile(const ProfileArguments& arguments);
 int tune(const TuneArguments& arguments);
 int plan(const PlanArguments& arguments);
 int check(const CheckArguments& arguments);
+int explain(const ExplainArguments& arguments);
+int new_scene(const NewArguments& arguments);
 int expand(const ExpandArguments& arguments);
 int compare(const CompareArguments& arguments);
 int status(const StatusArguments& arguments);

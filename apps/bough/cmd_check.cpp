@@ -1,9 +1,13 @@
 /// bough check SCENE, bough schema.
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 
 #include "arguments.hpp"
 #include "bough/elements/coupling_kinds.hpp"
+#include "bough/io/atomic_file.hpp"
+#include "bough/io/fix_scene.hpp"
+#include "bough/io/input_file.hpp"
 #include "bough/io/read_frames.hpp"
 #include "bough/io/read_motion.hpp"
 #include "bough/io/read_scene.hpp"
@@ -57,17 +61,54 @@ std::size_t print_mobility(const std::filesystem::path& file, const scene::Scene
   const plan::Plan plan = plan::make_plan(s);
   const plan::Mobility& mobility = plan.mobility;
   for (const auto* list : {&mobility.locked, &mobility.free, &mobility.massless})
-    for (const std::string& text : *list) std::cerr << file.string() << ": warning: " << text << "\n";
+    for (const std::string& text : *list) std::cerr << file.string() << ": warning: " << text << " [mobility]\n";
   if (const plan::IdleMotions idle = plan::idle_motions(s, plan); idle.count > 0)
-    std::cerr << file.string() << ": warning: " << idle.note << "\n";
+    std::cerr << file.string() << ": warning: " << idle.note << " [mobility]\n";
   const std::vector<std::string> refused = plan::undriven_motions(s, plan);
-  for (const std::string& text : refused) std::cerr << file.string() << ": " << text << "\n";
+  for (const std::string& text : refused) std::cerr << file.string() << ": " << text << " [undriven]\n";
   return refused.size();
+}
+
+/// Changes the file, or shows how it would be changed. A link is followed: the file that it leads to is written.
+int fix_file(const CheckArguments& arguments) {
+  if (arguments.scene == "-") {
+    std::cerr << "bough: what comes from standard input has no file that could be changed\n";
+    return exit_bad_input;
+  }
+  const std::filesystem::path folder = arguments.scene.has_parent_path() ? arguments.scene.parent_path() : ".";
+  std::string before;
+  try {
+    before = io::read_text(arguments.scene, io::max_file_bytes);
+  } catch (const io::Unreadable& error) {
+    std::cerr << arguments.scene.string() << ": " << error.why() << "\n";
+    return exit_bad_input;
+  }
+  const io::FixedScene fixed = io::fixed_scene(before, folder);
+  if (arguments.dry_run) {
+    std::cout << io::diff_of(arguments.scene.string(), before, fixed.text) << std::flush;
+    return std::cout.good() ? exit_done : exit_failed;
+  }
+  if (fixed.text != before) {
+    const std::filesystem::path file = std::filesystem::canonical(arguments.scene);
+    const std::filesystem::perms permissions = std::filesystem::status(file).permissions();
+    io::write_file(file, fixed.text);
+    std::filesystem::permissions(file, permissions);
+  }
+  for (const io::FixDone& f : fixed.done)
+    std::cout << arguments.scene.string() << ": line " << f.problem.line << ", column " << f.problem.column << ": "
+              << io::shown(f.before)
+              << (f.problem.fix->text.empty() ? " left out" : " changed to " + f.problem.fix->text) << " ["
+              << f.problem.code << "]\n";
+  if (fixed.done.empty()) std::cout << arguments.scene.string() << ": nothing that is sure to be changed\n";
+  std::cout << std::flush;
+  return exit_done;
 }
 
 }  // namespace
 
 int check(const CheckArguments& arguments) {
+  if (arguments.fix)
+    if (const int status = fix_file(arguments); status != exit_done || arguments.dry_run) return status;
   const io::SceneFile file = io::read_scene(arguments.scene, arguments.overrides);
   print_problems(arguments.scene, file, false);
   const auto refuse = [](std::size_t problems) {

@@ -283,11 +283,28 @@ void add_plan(CLI::App& app, PlanArguments& a, int& code) {
 
 void add_check(CLI::App& app, CheckArguments& a, int& code) {
   CLI::App& verb = add_verb(app, "check", "Say what is wrong with a scene, without running it",
-                            "  bough check four_bar.json\n  bough check four_bar.json --set /analysis/step_size=0");
+                            "  bough check four_bar.json\n  bough check four_bar.json --set /analysis/step_size=0\n"
+                            "  bough check four_bar.json --fix --dry-run\n"
+                            "Exit status: 0 nothing is wrong, 2 something is.");
   verb.add_option("SCENE", a.scene, "Scene file (JSON); -: standard input")->required();
   add_overrides(verb, a.overrides);
   add_memory_limit(verb, a.memory_limit);
+  CLI::Option* fix = verb.add_flag("--fix", a.fix,
+                                   "Change in the file what is sure, as a misspelt key or name of which only one is "
+                                   "near, tell what was changed, and check it");
+  fix->excludes("--set");
+  verb.add_flag("--dry-run", a.dry_run, "With --fix: print the difference and write nothing")->needs(fix);
   verb.callback([&] { code = check(a); });
+}
+
+void add_new(CLI::App& app, NewArguments& a, int& code) {
+  CLI::App& verb =
+      add_verb(app, "new", "Write a commented scene to begin with",
+               "  bough new\n  bough new beam\n  bough new rotor --out fan.json\n"
+               "Exit status: 0 done, 1 it cannot be written, 2 there is no such kind, or the file is there.");
+  verb.add_option("KIND", a.kind, "What the scene shows; all kinds are listed where none is given");
+  verb.add_option("--out", a.out, "File to write; -: standard output (default: KIND.json)")->type_name("FILE");
+  verb.callback([&] { code = new_scene(a); });
 }
 
 void add_expand(CLI::App& app, ExpandArguments& a, int& code) {
@@ -435,6 +452,8 @@ void add_kinematics(CLI::App& app, KinematicsArguments& a, int& code) {
 }
 
 struct Arguments {
+  ExplainArguments explain;
+  NewArguments new_scene;
   RunArguments run;
   ViewArguments view;
   BatchArguments batch;
@@ -454,6 +473,32 @@ struct Arguments {
   KinematicsArguments kinematics;
 };
 
+std::string help_of_verb(const std::string& word);
+std::vector<std::string> verb_names();
+
+void add_explaining(CLI::App& app, const std::string& name, const std::string& what, ExplainArguments& a, int& code) {
+  CLI::App& verb = add_verb(app, name, what,
+                            "  bough " + name + " step_size\n  bough " + name + " unknown-name\n  bough " + name +
+                                " prismatic\n  bough " + name +
+                                " 'load factor'\n"
+                                "Exit status: 0 done, 2 there is no such entry.");
+  verb.add_option("WORD", a.word, "A key, kind, verb, code of a message, doubt, or a heading of the manual")
+      ->required();
+  verb.callback([&] {
+    a.verb_help = help_of_verb(a.word);
+    a.verbs = verb_names();
+    code = explain(a);
+  });
+}
+
+void add_explain(CLI::App& app, ExplainArguments& a, int& code) {
+  add_explaining(app, "explain", "Say what a word of a file, a message or the manual means", a, code);
+}
+
+void add_help(CLI::App& app, ExplainArguments& a, int& code) {
+  add_explaining(app, "help", "The same as explain", a, code);
+}
+
 struct Verb {
   std::string_view name;
   void (*add)(CLI::App& app, Arguments& a, int& code);
@@ -466,6 +511,9 @@ void add_verb_of(CLI::App& app, Arguments& a, int& code) {
 
 /// In the order in which they are listed.
 constexpr Verb verbs[] = {
+    {"new", add_verb_of<&Arguments::new_scene, add_new>},
+    {"explain", add_verb_of<&Arguments::explain, add_explain>},
+    {"help", add_verb_of<&Arguments::explain, add_help>},
     {"run", add_verb_of<&Arguments::run, add_run>},
     {"view", add_verb_of<&Arguments::view, add_view>},
     {"batch", add_verb_of<&Arguments::batch, add_batch>},
@@ -489,10 +537,25 @@ bool is_verb(std::string_view word) {
   return std::any_of(std::begin(verbs), std::end(verbs), [&](const Verb& verb) { return verb.name == word; });
 }
 
-int explain_verb(const std::string& word) {
-  std::cerr << "bough: '" << word << "' is not a verb";
+std::vector<std::string> verb_names() {
   std::vector<std::string> names;
   for (const Verb& verb : verbs) names.emplace_back(verb.name);
+  return names;
+}
+
+/// What `bough WORD --help` prints; empty if the word is not a verb.
+std::string help_of_verb(const std::string& word) {
+  CLI::App app{"", "bough"};
+  Arguments arguments;
+  int code = exit_done;
+  for (const Verb& verb : verbs)
+    if (verb.name == word) verb.add(app, arguments, code);
+  return is_verb(word) ? app.get_subcommand(word)->help("bough") : std::string();
+}
+
+int explain_verb(const std::string& word) {
+  std::cerr << "bough: '" << word << "' is not a verb";
+  const std::vector<std::string> names = verb_names();
   const std::string nearest = scene::nearest_name(word, names);
   if (!nearest.empty()) std::cerr << "; did you mean '" << nearest << "'?";
   std::cerr << "\nVerbs:";

@@ -71,7 +71,7 @@ bool read_memory_size(const std::string& text, double& bytes) {
 bool refuse_for_memory(const std::filesystem::path& file, const scene::Scene& scene, double limit) {
   const std::string why = run::refusal(scene, limit > 0.0 ? limit : available_memory());
   if (why.empty()) return false;
-  std::cerr << file.string() << ": " << why << "\n";
+  std::cerr << file.string() << ": " << why << " [memory]\n";
   return true;
 }
 

@@ -113,8 +113,9 @@ void clear_line() { write_to_terminal(true, std::string(line_start) + std::strin
 
 void print_problems(const std::filesystem::path& file, const std::vector<io::Problem>& problems,
                     const std::vector<io::Problem>& warnings) {
-  for (const io::Problem& problem : problems) std::cerr << file.string() << ": " << problem.text() << "\n";
-  for (const io::Problem& warning : warnings) std::cerr << file.string() << ": warning: " << warning.text() << "\n";
+  for (const io::Problem& problem : problems) std::cerr << file.string() << ": " << problem.long_text();
+  for (const io::Problem& warning : warnings)
+    std::cerr << file.string() << ": warning: " << warning.text() << " [" << warning.code << "]\n";
 }
 
 io::RunOrigin origin_of(const std::filesystem::path& scene, const io::SceneFile& file,

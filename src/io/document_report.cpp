@@ -3,20 +3,26 @@
 #include <algorithm>
 #include <iostream>
 
+#include "bough/io/fault_codes.hpp"
 #include "bough/io/input_file.hpp"
 #include "bough/io/number_text.hpp"
 
 namespace bough::io {
 
 void Report::add(const JsonFault& f) {
-  put(problems_, {f.pointer, 0, 0, f.value, f.rule, f.hint}, source_file, f.offset);
+  Placed& placed = put(problems_, {f.pointer, 0, 0, f.value, f.rule, f.hint}, source_file, f.offset);
+  placed.problem.fix = f.fix;
 }
 
 void Report::add(const CheckFault& f) {
   std::string value = f.length == 0 ? token(f.source, f.offset) : excerpt(f.source, f.offset, f.length);
-  if (const JsonValue* at = f.length == 0 ? nullptr : locate(f.pointer, nullptr)) value = summary(*at);
-  put(problems_, {f.pointer, 0, 0, std::move(value), f.rule, f.hint}, f.source, f.offset).other_copies +=
-      f.other_copies;
+  const JsonValue* at = f.length == 0 ? nullptr : locate(f.pointer, nullptr);
+  if (at != nullptr) value = summary(*at);
+  Placed& placed = put(problems_, {f.pointer, 0, 0, std::move(value), f.rule, f.hint}, f.source, f.offset);
+  placed.other_copies += f.other_copies;
+  placed.length = f.length;
+  placed.meant = f.meant;
+  if (at != nullptr && at->is(JsonKind::string)) placed.word = at->text;
 }
 
 void Report::add(const ExpansionFault& f, bool is_warning) {
@@ -26,6 +32,7 @@ void Report::add(const ExpansionFault& f, bool is_warning) {
   Placed& placed = put(is_warning ? warnings_ : problems_, std::move(p), f.source, f.offset);
   placed.is_expanded = false;
   placed.other_copies = f.other_copies;
+  placed.length = f.length;
 }
 
 void Report::add_override(const PlacedFault& f) {
@@ -45,7 +52,10 @@ void Report::add(const PlacedFault& f, bool is_warning) {
   const int source = at == nullptr ? source_default : at->source;
   const std::size_t offset = at == nullptr ? 0 : at->offset;
   if (at != nullptr && at->is_copy && is_of_another_copy(list, p, source, offset)) return;
-  put(list, std::move(p), source, offset);
+  Placed& placed = put(list, std::move(p), source, offset);
+  if (at == nullptr) return;
+  placed.length = at->length;
+  if (at->is(JsonKind::string)) placed.word = at->text;
 }
 
 void Report::add(const PlacedFaults& faults, bool is_warning) {
@@ -95,6 +105,12 @@ void Report::finish(std::vector<Placed>& list, std::size_t left_out, std::vector
       list[i].problem.column = at.column;
     }
     Problem& p = list[i].problem;  // only for those shown, since a search for each of many would take quadratic time
+    p.code = code_of(p.rule, p.pointer);
+    if (list[i].in_file) show_place(list[i]);
+    if (std::string about; const JsonValue* second = second_place(list[i], about)) {
+      p.second_about = std::move(about);
+      second_places_.push_back({out.size(), second->offset, second->length});
+    }
     if (list[i].is_expanded) {
       if (p.owner = owner(p.pointer); p.owner == p.value) p.owner.clear();
       if (origins_ != nullptr) {
@@ -108,6 +124,7 @@ void Report::finish(std::vector<Placed>& list, std::size_t left_out, std::vector
                 (others == 1 ? " more copy" : " more copies");
     out.push_back(std::move(p));
   }
+  show_second_places(out);
   left_out += list.size() - std::min(list.size(), max_problems);
   if (left_out > 0 && !out.empty()) {
     Problem& last = out.back();

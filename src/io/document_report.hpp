@@ -12,6 +12,7 @@
 #include "bough/io/json_value.hpp"
 #include "bough/io/read_scene.hpp"
 #include "bough/io/schema_rule.hpp"
+#include "excerpts.hpp"
 #include "expand_scene.hpp"
 #include "read_values.hpp"
 
@@ -49,11 +50,19 @@ class Report {
     std::size_t offset;
     bool is_expanded = true;  ///< its pointer refers to the document as checked, not to the file
     std::size_t other_copies = 0;
+    std::size_t length = 0;  ///< of the value in the file [bytes]; 0: one token
+    std::string word = {};   ///< the string at fault as it reads; empty: none
+    std::string meant = {};  ///< the key or word that it can only have been meant to be
   };
 
   Placed& put(std::vector<Placed>& list, Problem p, int source, std::size_t offset);
   bool is_of_another_copy(std::vector<Placed>& list, const Problem& p, int source, std::size_t offset);
   void finish(std::vector<Placed>& list, std::size_t left_out, std::vector<Problem>& out);
+  void show_place(Placed& placed);
+  void show_second_places(std::vector<Problem>& problems);
+  const JsonValue* second_place(const Placed& placed, std::string& about);
+  void suggest_fix(Placed& placed);
+  const DefinedNames& names();
   std::string_view source_text(int source) const;
   std::string excerpt(int source, std::size_t offset, std::size_t length) const;
   std::string token(int source, std::size_t offset) const;
@@ -71,6 +80,12 @@ class Report {
   mutable std::unordered_map<const JsonValue*, std::unordered_map<std::string_view, const JsonValue*>> members_;
   std::map<std::string, std::size_t> of_copies_;  ///< index in its list, by list, place and rule
   std::vector<Placed> problems_, warnings_;
+  std::optional<DefinedNames> names_;  ///< made where a fault is about a name
+  std::size_t names_compared_ = 0;     ///< with misspelt ones
+  struct SecondPlace {
+    std::size_t problem, offset, length;
+  };
+  std::vector<SecondPlace> second_places_;
   std::size_t left_out_ = 0, warnings_left_out_ = 0;
 };
 
@@ -106,6 +121,7 @@ File read_document_file(const std::filesystem::path& file, const ReadText& read_
   if (problem.rule.empty()) return read_text(text);
   File r;
   problem.value = shown(file.string(), 200);
+  problem.code = "unreadable";
   r.problems.push_back(std::move(problem));
   return r;
 }

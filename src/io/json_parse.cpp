@@ -263,6 +263,28 @@ std::string syntax_hint(std::string_view rest, char before, bool after_zero) {
   return "";
 }
 
+/// The change of a text that can only have been meant where the reader stopped at an offset: a comma before a closing
+/// bracket is left out, and True, False, +1 and .5 are written as JSON has them. last: end of the token before.
+std::optional<Fix> syntax_fix(std::string_view text, std::size_t last, std::size_t offset) {
+  const std::string_view rest = text.substr(std::min(offset, text.size()));
+  const std::string_view gap = text.substr(std::min(last, text.size()), offset - std::min(last, offset));
+  const std::size_t comma = gap.find(',');
+  const bool is_after_value = last > 0 && text[last - 1] != '[' && text[last - 1] != '{';
+  if (is_after_value && !rest.empty() && (rest.front() == ']' || rest.front() == '}') && comma != std::string::npos &&
+      gap.find_first_of(",:", comma + 1) == std::string::npos && gap.find(':') == std::string::npos)
+    return Fix{last + comma, 1, ""};
+  const std::string_view word = rest.substr(0, rest.find_first_of(" \t\r\n,:{}[]\"/#"));
+  if (word == "True") return Fix{offset, word.size(), "true"};
+  if (word == "False") return Fix{offset, word.size(), "false"};
+  const bool has_sign = !word.empty() && (word.front() == '+' || word.front() == '-');
+  std::string number(word.substr(has_sign ? 1 : 0));
+  if (!number.empty() && number.front() == '.') number.insert(0, "0");
+  if (number.empty() || number.front() < '0' || number.front() > '9' || number == word) return {};
+  if (has_sign && word.front() == '-') number.insert(0, "-");
+  if (!nlohmann::json::accept(number)) return {};
+  return Fix{offset, word.size(), number};
+}
+
 /// The encoding of a text whose characters take two or four bytes each, known by its mark or by the zero bytes of its
 /// first character, which is ASCII in every JSON text; null: none of these.
 const char* wide_encoding(std::string_view text) {
@@ -314,6 +336,7 @@ bool Builder::parse_error(std::size_t position, const std::string& last_token, c
   if (token.empty()) token = shown(last_token);
   fault(offset, levels_.empty() ? "" : path(), token, shown(rule, 300),
         e.id == 406 ? "" : syntax_hint(rest, before, after_zero));
+  if (e.id != 406 && !faults_.empty()) faults_.back().fix = syntax_fix(text_, end_of_last, offset);
   return false;
 }
 

@@ -6,6 +6,7 @@
 #include "bough/io/number_text.hpp"
 #include "bough/io/schema_rule.hpp"
 #include "document_report.hpp"
+#include "kinematics_rules.hpp"
 #include "read_values.hpp"
 #include "schema_parts.hpp"
 
@@ -45,10 +46,14 @@ RuleTable make_frame_rules() {
   return t;
 }
 
+}  // namespace
+
 const RuleTable& frame_rules() {
   static const RuleTable table = make_frame_rules();
   return table;
 }
+
+namespace {
 
 /// Converts a checked document to a study, without its faulty parts.
 class FrameConverter : private ValueConverter {

@@ -4,6 +4,7 @@
 
 #include "bough/io/schema_rule.hpp"
 #include "document_report.hpp"
+#include "kinematics_rules.hpp"
 #include "read_values.hpp"
 #include "schema_parts.hpp"
 
@@ -32,10 +33,14 @@ RuleTable make_motion_rules() {
   return t;
 }
 
+}  // namespace
+
 const RuleTable& motion_rules() {
   static const RuleTable table = make_motion_rules();
   return table;
 }
+
+namespace {
 
 std::string fault_of(const motion::Frame<double>& pose) {
   for (const double r : pose.R.m)

@@ -102,6 +102,7 @@ auto read_file(const std::filesystem::path& file, const ReadText& read_text) {
   if (problem.rule.empty()) return read_text(text, file == "-" ? "scene" : name_of_file(file));
   decltype(read_text(text, std::string())) r;
   problem.value = shown(file.string(), 200);
+  problem.code = "unreadable";
   r.problems.push_back(std::move(problem));
   return r;
 }

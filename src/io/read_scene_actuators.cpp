@@ -133,6 +133,9 @@ void Converter::add_effort(const Value& v, const Servo& servo, const std::string
 void Converter::actuator(const Value& v, const std::string& at) {
   Servo servo;
   servo.name = v.find("name")->text;
+  if (!laws::is_formula_name(servo.name))  // its formulas are made of it
+    return fault(at + "/name", "formulas cannot call a signal by this name",
+                 "an actuator is also a signal: a letter or _, then letters, digits and _");
   servo.stem = servo.name + "_";
   servo.joint = joint_to_drive(v.find("joint")->text, at + "/joint");
   if (servo.joint == nullptr || !find_coordinate(v, at, servo)) return;

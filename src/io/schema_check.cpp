@@ -11,6 +11,7 @@
 #include "bough/scene/joint_efforts.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "json_path.hpp"
+#include "sure_names.hpp"
 
 namespace bough::io {
 namespace {
@@ -96,6 +97,14 @@ class Checker {
     return is_known ? "did you mean \"" + meant + "\"?" : suggestion(word, kinds);
   }
 
+  /// A word that has to be one of some words.
+  bool fail_word(const JsonValue& value, const Path& path, const std::vector<std::string>& words, std::string hint) {
+    const std::size_t before = faults_.size();
+    fail(value, path, "has to be " + quoted_list(words), std::move(hint));
+    if (faults_.size() > before && !is_hopeless()) faults_.back().meant = only_word(value.text.str(), words);
+    return false;
+  }
+
   bool fail(const JsonValue& value, const Path& path, std::string rule, std::string hint = {}, bool at_key = false) {
     const std::uint32_t offset = at_key ? value.key_offset : value.offset;
     const std::uint32_t length = at_key ? 0 : value.length;  // 0: one token
@@ -136,7 +145,7 @@ class Checker {
       }
       case Form::word:
         if (std::find(rule.words.begin(), rule.words.end(), value.text) != rule.words.end()) return true;
-        return fail(value, path, "has to be " + quoted_list(rule.words), suggestion(value.text, rule.words));
+        return fail_word(value, path, rule.words, suggestion(value.text, rule.words));
       case Form::array:
         return check_array(rule, value, path);
       case Form::object:
@@ -289,7 +298,10 @@ class Checker {
     std::string near = scene::nearest_name(value.items.key(i), free_keys);
     if (near.empty()) near = scene::nearest_name(value.items.key(i), known);
     std::string hint = near.empty() ? "known keys: " + quoted_list(known) : "did you mean \"" + near + "\"?";
+    const std::size_t before = faults_.size();
     fail(value.items[i], at, "this key is not known here", std::move(hint), true);
+    if (faults_.size() > before && value.find(near) == nullptr && only_word(value.items.key(i), known) == near)
+      faults_.back().meant = near;
     return near;
   }
 
@@ -360,8 +372,8 @@ class Checker {
       for (const Field& f : option->fields) keys.emplace_back(f.key);
     }
     if (JsonValue* kind = value.find_given("kind"); kind != nullptr && !kinds.empty())
-      return fail(*kind, path.member("kind"), "has to be " + quoted_list(kinds),
-                  kind->is(JsonKind::string) ? suggestion_of_kind(kind->text, kinds) : "");
+      return fail_word(*kind, path.member("kind"), kinds,
+                       kind->is(JsonKind::string) ? suggestion_of_kind(kind->text, kinds) : "");
     if (const JsonValue* name = value.find_given("signal"); name != nullptr && name->is(JsonKind::string)) {
       if (path.text().rfind("/frames/", 0) == 0)
         return fail(value, path,

@@ -300,7 +300,8 @@ holds grep -q '</html>' study.out/study.html
 sed 's/"order": 2, "theory"/"order": 3, "theory"/' study.json > high.json
 expect 1 'theory 3' study high.json --out high.out
 sed 's/step size/step sise/; s/"bob"/"bab"/' study.json > bad_study.json
-expect 2 'line 2, column .*/quantities/0/sensor .*did you mean "bob"' study bad_study.json --out bad_study.out
+expect 2 'line 2, column .*/quantities/0/sensor .*\[unknown-name\]' study bad_study.json --out bad_study.out
+expect 2 'help: did you mean "bob"' study bad_study.json --out bad_study.out
 holds test ! -e bad_study.out
 mkdir studies no_studies && cp study.json good.json studies
 expect 2 'needs the key "quantities"' study studies --out studies.out

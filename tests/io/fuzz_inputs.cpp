@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <string>
@@ -81,7 +82,10 @@ std::string fault_of(const std::string& message) {
 std::string fault_of(const std::vector<Problem>& problems, const std::vector<Problem>& warnings) {
   for (const auto* list : {&problems, &warnings})
     for (const Problem& p : *list)
-      if (const std::string fault = fault_of(p.text()); !fault.empty()) return fault;
+      for (std::string message : {p.text(), p.long_text()}) {
+        std::replace(message.begin(), message.end(), '\n', ' ');  // the long text has lines
+        if (const std::string fault = fault_of(message); !fault.empty()) return fault;
+      }
   return "";
 }
 

@@ -16,6 +16,10 @@ using test::table_cases;
 
 // Text, geometry and references: what only the reader sees.
 const Bad scene_cases[] = {
+    {"\"title\": \"base\",",
+     "\"title\": \"base\", \"actuators\": [ { \"name\": @\"left motor\", \"kind\": \"servo\", \"joint\": \"hinge\", "
+     "\"target\": 1, \"position_gain\": 1 } ],",
+     "/actuators/0/name", "formulas cannot call a signal by this name"},
     {"\"title\": \"base\",", "\"title\": \"base\", @\"title\": \"again\",", "/title", "given before"},
     {"\"mass\": 2, ", "\"mass\": 2, @\"mass\": 3, ", "/bodies/0/mass", "given before"},
     {"\"stiffness\": 10 }", "\"stiffness\": @1e-400 }", "/springs/0/stiffness", "too small for a double"},

@@ -31,7 +31,7 @@ if [ -n "$long" ]; then
   failed=1
 fi
 # A README is one page: what is longer belongs to the manual.
-pages=$(wc -l README.md src/*/README.md | awk '$2 != "total" && $1 >= 120 { print $1, $2 }')
+pages=$(wc -l README.md src/*/README.md benchmarks/README.md tests/*/README.md | awk '$2 != "total" && $1 >= 120 { print $1, $2 }')
 if [ -n "$pages" ]; then
   echo "READMEs of 120 lines and more:"
   echo "$pages"

@@ -129,10 +129,17 @@ inline const JsonValue* JsonItems::end() const { return begin() + size(); }
 inline JsonValue& JsonItems::operator[](std::size_t i) { return values()[i]; }
 inline const JsonValue& JsonItems::operator[](std::size_t i) const { return values()[i]; }
 
+/// A change of a text: these bytes of it give way to others.
+struct Fix {
+  std::size_t offset = 0, length = 0;
+  std::string text;
+};
+
 /// A fault of the JSON text itself.
 struct JsonFault {
   std::size_t offset = 0;
   std::string pointer, value, rule, hint;
+  std::optional<Fix> fix = {};  ///< what can only have been meant
 };
 
 /// Reads a text. Returns none if the text is not JSON. Duplicate keys are faults too, but reading continues, and the

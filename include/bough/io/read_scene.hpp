@@ -3,29 +3,49 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bough/io/input_file.hpp"
+#include "bough/io/json_value.hpp"
 #include "bough/scene/scene.hpp"
 
 namespace bough::io {
 
+/// A line of a file with a part of it marked.
+struct Excerpt {
+  int line = 0;                        ///< from 1; 0: there is none
+  std::string text;                    ///< the line, or what of it is near the mark, for display
+  std::size_t before = 0, marked = 0;  ///< characters before the mark, and of the mark, in `text`
+};
+
 /// One fault of a file.
 struct Problem {
-  std::string pointer;        ///< JSON pointer (RFC 6901) of the value or key at fault
-  int line = 0;               ///< from 1; 0: not in the file (given by an override, or the file itself)
-  int column = 0;             ///< from 1, counted in characters
-  std::string value;          ///< the text at fault as written, shortened
-  std::string rule;           ///< the rule that it breaks
-  std::string hint;           ///< what to do, or the nearest known name; may be empty
-  std::string owner = {};     ///< name of the part to which the pointer leads; empty if the value shows it
-  std::string instance = {};  ///< which copy of a repeated part: "i = 3, j = 0"; empty: none
+  std::string pointer;            ///< JSON pointer (RFC 6901) of the value or key at fault
+  int line = 0;                   ///< from 1; 0: not in the file (given by an override, or the file itself)
+  int column = 0;                 ///< from 1, counted in characters
+  std::string value;              ///< the text at fault as written, shortened
+  std::string rule;               ///< the rule that it breaks
+  std::string hint;               ///< what to do, or the nearest known name; may be empty
+  std::string owner = {};         ///< name of the part to which the pointer leads; empty if the value shows it
+  std::string instance = {};      ///< which copy of a repeated part: "i = 3, j = 0"; empty: none
+  std::string code = {};          ///< of the rule (fault_codes.hpp): what `bough explain` takes
+  Excerpt excerpt = {};           ///< of the place at fault
+  Excerpt second = {};            ///< another place that one needs to see
+  std::string second_about = {};  ///< what is there: "defined here"
+  std::optional<Fix> fix = {};    ///< what can only have been meant, where that is sure (sure_names.hpp)
 
   /// "line 12, column 7, /beams/0/section: "stel": no section has this name; did you mean "steel"?"
   std::string text() const;
+  /// The same on several lines: code, excerpts with a mark below the places, and the hint on a line of its own.
+  ///   line 12, column 7, /beams/0/section of "arm" ("stel"): no section has this name [unknown-name]
+  ///      12 |   "section": "stel",
+  ///         |              ^^^^^^
+  ///     help: did you mean "steel"?
+  std::string long_text() const;
 };
 
 /// The readable content of a scene file. It is usable only if `problems` is empty.

@@ -95,6 +95,7 @@ struct CheckFault {
   std::uint32_t offset = 0, length = 0;  ///< of the value at fault; an unknown key, or the object that misses one
   std::string pointer, rule, hint;
   std::size_t other_copies = 0;  ///< further copies of the same text with the same fault
+  std::string meant = {};        ///< the key or word that the one at fault can only have been meant to be
 };
 
 /// Checks a document, fills in defaults (source_default), puts numbers in the place of formulas, clears
