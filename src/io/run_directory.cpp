@@ -9,6 +9,7 @@
 #include "bough/io/number_text.hpp"
 #include "bough/io/unfinished_run.hpp"
 #include "checkpoint_file.hpp"
+#include "linear_model_files.hpp"
 #include "measured_errors.hpp"
 #include "result_tables.hpp"
 
@@ -27,7 +28,7 @@ const std::vector<std::string> all_names = [] {
   std::vector<std::string> names = {"history.csv",  "history.npy",  "columns.json",   "errors.csv",
                                     "motion.bin",   "motion.pvd",   "motion/frame_*", "states.bin",
                                     "summary.json", "checkpoint.*", "progress.json"};
-  names.insert(names.end(), table_files.begin(), table_files.end());
+  for (const auto* list : {&table_files, &linear_model_names}) names.insert(names.end(), list->begin(), list->end());
   return names;
 }();
 
@@ -332,6 +333,9 @@ void RunDirectory::end(const records::Summary& summary) {
   if (summary.errors && !failure) failure = commit_text("errors.csv", errors_csv(*summary.errors));
   for (const records::Table& table : summary.tables)
     if (!failure) failure = commit_text(file_of(table), table_csv(table));
+  if (summary.linear_model && !failure)
+    for (const auto& [name, text] : linear_model_files(*summary.linear_model))
+      if (!failure) failure = commit_text(name, text);
   if (!failure) {  // otherwise there is no summary, since the directory is incomplete
     try {
       folder_->write_index("summary.json", summary_text(summary, version_, origin_, records_));
