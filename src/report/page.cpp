@@ -165,7 +165,8 @@ void add_tables(Document& page, const std::vector<records::Table>& tables) {
       whole.rows.push_back(std::move(cells));
       brief.rows.push_back(std::move(few));
     }
-    page.table(brief);
+    constexpr std::size_t most_rows = 60;  // longer tables are folded
+    if (brief.rows.size() <= most_rows) page.table(brief);
     page.folded("All columns", whole, false);
   }
 }

@@ -21,7 +21,6 @@ using step::Linearisation;
 
 constexpr double settled_factor = 1e-9;  ///< relative change of a critical factor between two estimates
 constexpr double near_enough = 1e-3;     ///< distance of the state from it, over it, at the last estimate
-constexpr double nearest = 1e-6;         ///< the same, below which states are not told from critical ones
 constexpr double one_load = 1e-5;        ///< relative distance of factors that are one
 constexpr double part_of_way = 0.9;      ///< of the way to the estimate that a load step takes
 constexpr int most_estimates = 60, most_halvings = 16;
@@ -40,7 +39,7 @@ class Buckling final : public Analysis {
   bool ends_in_correction() const override { return false; }
   void checkpoint(records::Archive& archive) override {
     Analysis::checkpoint(archive);
-    archive(is_done_, last_critical_, way_);
+    archive(is_done_, is_counted_, last_critical_, way_);
   }
   void sum_up() override;
   void add_doubts() override {
@@ -55,8 +54,8 @@ class Buckling final : public Analysis {
  private:
   struct Found {
     double factor = 0.0;
+    double change = 0.0;  ///< from the estimate before, relative
     step::CriticalLoad load;
-    int estimates = 0;
     step::UnstableMode where;
   };
   struct Estimate {
@@ -70,9 +69,12 @@ class Buckling final : public Analysis {
   std::string take_tangents(Linearisation& to, step::State& at);
   Estimate estimate(double difference);
   Estimate first_estimate();
+  std::string leave_behind();
+  std::optional<std::string> approach(double factor, double part);
   bool find_next(std::vector<Found>& found, bool& is_last);
 
   bool is_done_ = false;
+  bool is_counted_ = true;  ///< the inertia of every tangent had as many negative directions as were passed
   double last_critical_ = 0.0;
   double way_ = 1.0;  ///< of load factors, the order of the next critical one
   std::vector<Found> found_;
@@ -166,14 +168,56 @@ bool Buckling::begin() {
   return true;
 }
 
+/// Beyond the last critical factors, where the tangent is not nearly singular and no further one has been passed.
+std::string Buckling::leave_behind() {
+  double beyond = 0.02;
+  std::string why;
+  for (int k = 0; k < 8; ++k, beyond *= 0.25) {
+    step::State next = state_;
+    if (const auto cause = go_to(next, (1.0 + beyond) * last_critical_)) {
+      why = *cause;
+      continue;
+    }
+    Linearisation linear(system_);
+    if (why = take_tangents(linear, next); !why.empty()) return why;
+    if (!linear.factor({}, is_symmetric() ? solve::Symmetry::symmetric : solve::Symmetry::general).ok()) continue;
+    if (is_symmetric() && linear.num_negative() != static_cast<int>(found_.size())) continue;
+    state_ = next;
+    return {};
+  }
+  return "the path of equilibria is not followed beyond the load factor " + io::rounded_text(last_critical_, 9) +
+         (why.empty() ? "" : ": " + why);
+}
+
+/// A part of the way to a critical factor, or less where no equilibrium is found.
+std::optional<std::string> Buckling::approach(double factor, double part) {
+  double target = state_.time + part * (factor - state_.time);
+  std::optional<std::string> why;
+  for (int halvings = 0; halvings < most_halvings; ++halvings) {
+    step::State next = state_;
+    if (!(why = go_to(next, target))) {
+      state_ = next;
+      return std::nullopt;
+    }
+    target = 0.5 * (target + state_.time);
+  }
+  return why;
+}
+
 bool Buckling::find_next(std::vector<Found>& found, bool& is_last) {
   double part = part_of_way, before = 0.0;
+  if (!found_.empty())
+    if (const std::string why = leave_behind(); !why.empty()) return fail(why);
   step::State previous = state_;
   const auto passed = static_cast<int>(found_.size());
-  const double largest = scene_.analysis.buckling.largest_factor;
+  std::vector<Found> near;  // by the last estimate next to a critical factor: what is nearer may not be solved
   for (int k = 0; k < most_estimates; ++k) {
     const double difference = -std::max(1e-2 * std::abs(way_ - state_.time), 1e-4 * way_);
     const Estimate now = state_.time > 0.0 ? estimate(std::max(difference, -0.5 * state_.time)) : first_estimate();
+    if (!now.cause.empty() && !near.empty()) {
+      found = std::move(near);
+      return true;
+    }
     if (!now.cause.empty())
       return fail(now.cause + (state_.time > 0.0 ? ""
                                                  : "; the structure without loads has to stand by itself, as under a "
@@ -185,31 +229,26 @@ bool Buckling::find_next(std::vector<Found>& found, bool& is_last) {
       if (part < 1e-3) break;
       continue;
     }
-    if (now.next.empty() || state_.time + now.next.front().distance > largest) {
+    if (now.next.empty() || state_.time + now.next.front().distance > scene_.analysis.buckling.largest_factor) {
       is_last = true;
       return true;
     }
+    is_counted_ = is_counted_ && now.loads.unstable == passed;
     const double factor = way_ = state_.time + now.next.front().distance;
-    const bool is_near = std::abs(factor - state_.time) <= near_enough * factor;
-    if (is_near &&
-        (std::abs(factor - before) <= settled_factor * factor || std::abs(factor - state_.time) <= nearest * factor)) {
+    near.clear();
+    if (std::abs(factor - state_.time) <= near_enough * factor)
       for (const step::CriticalLoad& load : now.next)
-        found.push_back(
-            {state_.time + load.distance, load, k + 1, step::unstable_mode_of(system_, state_, load.shape)});
-      return true;
-    }
+        near.push_back({state_.time + load.distance, std::abs(factor / before - 1.0), load,
+                        step::unstable_mode_of(system_, state_, load.shape)});
+    const bool is_settled = std::abs(factor - before) <= settled_factor * factor;
     before = factor;
     previous = state_;
-    step::State next = state_;
-    double target = state_.time + part * (factor - state_.time);
-    std::optional<std::string> why;
-    for (int halvings = 0; halvings < most_halvings; ++halvings) {
-      next = state_;
-      if (!(why = go_to(next, target))) break;
-      target = 0.5 * (target + state_.time);
+    if (near.empty() || !is_settled)
+      if (const auto why = approach(factor, part); why && near.empty()) return fail(*why);
+    if (!near.empty() && (is_settled || state_.time == previous.time)) {
+      found = std::move(near);
+      return true;
     }
-    if (why) return fail(*why);
-    state_ = next;
     if (!may_try(factor)) return false;
   }
   return fail("the critical load factor near " + io::rounded_text(way_, 6) +
@@ -238,20 +277,15 @@ bool Buckling::take_step() {
 }
 
 void Buckling::sum_up() {
-  records::Table table{"buckling",
-                       "",
-                       {{"mode", "", true},
-                        {"load_factor", "", true},
-                        {"state_at", "", true},
-                        {"residual"},
-                        {"estimates"},
-                        {"what", "", true}},
-                       {}};
+  records::Table table{
+      "buckling",
+      "",
+      {{"mode", "", true}, {"load_factor", "", true}, {"state_at", "", true}, {"last_change"}, {"what", "", true}},
+      {}};
   std::vector<step::Mode> shapes;
   for (const Found& one : found_) {
     table.rows.push_back({static_cast<double>(table.rows.size() + 1), one.factor, one.factor - one.load.distance,
-                          one.load.residual, static_cast<double>(one.estimates),
-                          StabilityWatch::describe(plan_, one.where)});
+                          one.change, StabilityWatch::describe(plan_, one.where)});
     step::Mode shape;
     shape.shape.assign(one.load.shape.begin(), one.load.shape.end());
     shapes.push_back(std::move(shape));
@@ -259,8 +293,9 @@ void Buckling::sum_up() {
   table.about = std::string(
                     "Load factors at which the tangent of the loaded structure is singular, about the shape that "
                     "it has there. ") +
-                (is_symmetric() ? "No lower one is missing, by the signs of pivots of the tangent next to each."
-                                : "Some load has no potential: divergence alone is looked for.");
+                (!is_symmetric() ? "Some load has no potential: divergence alone is looked for."
+                 : is_counted_   ? "No lower one is missing, by the signs of pivots of the tangent next to each."
+                                 : "That no lower one is missing is not proved.");
   summary().tables.push_back(std::move(table));
   draw_modes(recording_, system_, state_, shapes);
 }

@@ -15,6 +15,7 @@ using Vector = Linearisation::Vector;
 
 constexpr double is_real = 1e-8;         ///< imaginary part of an eigenvalue over its size that may be round-off
 constexpr double has_converged = 1e-10;  ///< relative residual of an eigenvalue
+constexpr double one_distance = 1e-2;    ///< relative difference of distances that may be those of equal factors
 constexpr int most_searches = 6;
 
 class CriticalSearch {
@@ -24,7 +25,7 @@ class CriticalSearch {
 
   CriticalLoads run() {
     CriticalLoads found;
-    if (!linear_.factor_soundly({}, symmetric_ ? solve::Symmetry::symmetric : solve::Symmetry::general)) {
+    if (!linear_.factor({}, symmetric_ ? solve::Symmetry::symmetric : solve::Symmetry::general).ok()) {
       found.cause = "the tangent is singular: something moves without resistance";
       return found;
     }
@@ -42,7 +43,6 @@ class CriticalSearch {
         found.cause = "the solution with the tangent is not finite";
         return found;
       }
-      // A search beside those found has to find something as near as they are.
       if (found.loads.size() == before) break;
     }
     std::stable_sort(found.loads.begin(), found.loads.end(), [](const CriticalLoad& a, const CriticalLoad& b) {
@@ -60,7 +60,15 @@ class CriticalSearch {
   }
 
   bool search(Krylov& space, std::vector<CriticalLoad>& loads) {
-    const double farthest = loads.empty() ? 0.0 : std::abs(loads.back().distance);
+    const std::size_t before = loads.size();
+    // What a first space has found once may be there several times; all else that a later one tells is round-off.
+    const auto is_another = [&](double distance) {
+      return before == 0 ||
+             std::any_of(loads.begin(), loads.begin() + static_cast<std::ptrdiff_t>(before),
+                         [distance](const CriticalLoad& load) {
+                           return std::abs(distance - load.distance) <= one_distance * std::abs(distance);
+                         });
+    };
     const int most = 8 * (count_ + 10);
     std::vector<Krylov::Ritz> ritz;
     for (int size = 2 * count_ + 12;; size += 8) {
@@ -78,8 +86,8 @@ class CriticalSearch {
       if (one.residual > has_converged * std::abs(one.value) ||
           std::abs(one.value.imag()) > is_real * std::abs(one.value))
         continue;
-      CriticalLoad load{1.0 / one.value.real(), real_part(space.vector_of(one)), 0.0};
-      if (farthest > 0.0 && std::abs(load.distance) > (1.0 + 1e-3) * farthest) continue;
+      CriticalLoad load{1.0 / one.value.real(), real_part(space.vector_of(one))};
+      if (!is_another(load.distance)) continue;
       Vector next;  // with the multipliers of the shape
       if (!apply(load.shape, next)) return false;
       if (!space.normalise(load.shape)) continue;
@@ -87,7 +95,6 @@ class CriticalSearch {
       const double length = std::sqrt(linear_.inner(load.shape, load.shape));
       if (!(length > 0.0)) continue;
       for (double& value : load.shape) value /= length;
-      load.residual = residual_of_load(load);
       more.push_back(std::move(load));
       if (static_cast<int>(more.size()) > count_) break;
     }
@@ -97,21 +104,6 @@ class CriticalSearch {
       loads.push_back(std::move(load));
     }
     return true;
-  }
-
-  double residual_of_load(const CriticalLoad& load) {
-    Vector sum(linear_.size()), part(linear_.size()), size(linear_.size());
-    linear_.multiply(Part::stiffness, load.shape, sum);
-    linear_.multiply_magnitudes(Part::stiffness, load.shape, size);
-    linear_.multiply(Part::mass, load.shape, part);
-    double left = 0.0, whole = 0.0;
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-      if (!(linear_.weights()[i] > 0.0)) continue;
-      const double rest = sum[i] - load.distance * part[i];
-      left += rest * rest / linear_.weights()[i];
-      whole += size[i] * size[i] / linear_.weights()[i];
-    }
-    return whole > 0.0 ? std::sqrt(left / whole) : 0.0;
   }
 
   Linearisation& linear_;

@@ -342,18 +342,19 @@ solve::FactorStatus Linearisation::factor(const Combination& of_parts, solve::Sy
 bool Linearisation::factor_soundly(const Combination& of_parts, solve::Symmetry symmetry) {
   constexpr double allowed = 1e-6;
   if (!factor(of_parts, symmetry).ok()) return false;
-  // Forces are measured in the solver's own product, with the shifts that it has factored.
-  Vector known = vector_without_zeros(size()), forces(size()), found(size());
+  Vector known = vector_without_zeros(size()), forces(size()), found(size()), again(size());
   for (std::size_t i = 0; i < size(); ++i)
     if (weights_[i] > 0.0) known[i] /= std::sqrt(weights_[i]);
   factored_->multiply(system_.walker(), known.data(), forces.data());
   if (!solve(forces, found)) return false;
-  double left = 0.0, whole = 0.0;
+  factored_->multiply(system_.walker(), found.data(), again.data());
+  double left[2] = {0.0, 0.0}, whole[2] = {0.0, 0.0};  // of forces, and of constraint rows
   for (std::size_t i = 0; i < size(); ++i) {
-    left += weights_[i] * (found[i] - known[i]) * (found[i] - known[i]);
-    whole += weights_[i] * known[i] * known[i];
+    const double weight = is_row_[i] != 0 ? 1.0 : 1.0 / weights_[i];
+    left[is_row_[i]] += weight * (again[i] - forces[i]) * (again[i] - forces[i]);
+    whole[is_row_[i]] += weight * forces[i] * forces[i];
   }
-  return left <= allowed * allowed * whole;
+  return left[0] <= allowed * allowed * whole[0] && left[1] <= allowed * allowed * whole[1];
 }
 
 bool Linearisation::solve(std::span<const double> rhs, std::span<double> x) {

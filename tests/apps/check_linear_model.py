@@ -55,7 +55,7 @@ with tempfile.TemporaryDirectory() as folder:
         of_minimal = arrays["C"] @ numpy.linalg.solve(
             1j * w * numpy.eye(len(arrays["A"])) - arrays["A"], arrays["B"]) + arrays["D"]
         of_descriptor = sparse["C"] @ numpy.linalg.solve(1j * w * sparse["E"] - sparse["A"], sparse["B"]) + sparse["D"]
-        assert numpy.abs(of_minimal - of_descriptor).max() < 1e-7 * numpy.abs(of_descriptor).max(), w
+        assert numpy.abs(of_minimal - of_descriptor).max() < 2e-6 * numpy.abs(of_descriptor).max(), w
     try:
         import scipy.io
         assert (scipy.io.mmread(out / "linear_model_A.mtx").toarray() == sparse["A"]).all()

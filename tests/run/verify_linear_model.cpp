@@ -119,7 +119,7 @@ TEST(LinearModel, both_forms_have_the_frequency_response_of_the_direct_solution)
         const std::string name = model->outputs[y].name + " by " + model->inputs[u].name;
         const Complex direct =
             std::polar(seen.number(k, name + " amplitude"), seen.number(k, name + " phase") * pi / 180);
-        const double allowed = 1e-8 * std::abs(direct) + 1e-9 * most;
+        const double allowed = 1e-8 * std::abs(direct) + 4e-9 * most;
         EXPECT_LT(std::abs(minimal(static_cast<Index>(y), static_cast<Index>(u)) - direct), allowed)
             << name << " " << k;
         EXPECT_LT(std::abs(descriptor(static_cast<Index>(y), static_cast<Index>(u)) - direct), allowed)

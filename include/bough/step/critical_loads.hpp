@@ -11,7 +11,6 @@ namespace bough::step {
 struct CriticalLoad {
   double distance = 0.0;
   std::vector<double> shape;  ///< by unknown, with the multipliers that belong to it; of unit length in `weights`
-  double residual = 0.0;      ///< what is left of the equations over the size of their terms [-]
 };
 
 struct CriticalLoads {
@@ -22,7 +21,7 @@ struct CriticalLoads {
 
 /// `linear` holds the tangent as K and -K' as M (Linearisation::take_difference). Eigenvalues 1 / d of  [K G^T; G
 /// 0]^-1 (-K')  by Arnoldi's method, real ones alone, so that under loads without a potential divergence is found and
-/// flutter is not. Further searches beside those that were found, which are locked, find equal ones. symmetric: K and K'
+/// flutter is not. Further searches, beside those that were found and are locked, find equal ones. symmetric: K and K'
 /// are, and their symmetric parts are factored.
 CriticalLoads find_critical_loads(Linearisation& linear, bool symmetric, int count);
 
