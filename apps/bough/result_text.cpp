@@ -82,22 +82,26 @@ std::string expected_text(const std::vector<records::ExpectedResult>& expected) 
 
 /// The columns of a table for which a terminal has room.
 std::string results_text(const records::Table& table) {
+  constexpr std::size_t most_rows = 48, most_columns = 9;  // of a screen; the file has all
   std::vector<std::vector<std::string>> rows(1);
   for (const records::Table::Column& column : table.columns)
-    if (column.is_brief)
+    if (column.is_brief && rows[0].size() < most_columns)
       rows[0].push_back((rows[0].empty() ? "  " : "") +
                         (column.unit.empty() ? column.name : column.name + " [" + column.unit + "]"));
   for (const auto& row : table.rows) {
+    if (rows.size() > most_rows) break;
     std::vector<std::string> cells;
     for (std::size_t c = 0; c < row.size(); ++c) {
-      if (!table.columns[c].is_brief) continue;
+      if (!table.columns[c].is_brief || cells.size() == most_columns) continue;
       const double* number = std::get_if<double>(&row[c]);
       cells.push_back((cells.empty() ? "  " : "") +
                       (number != nullptr ? rounded_text(*number, 7) : std::get<std::string>(row[c])));
     }
     rows.push_back(std::move(cells));
   }
-  return "  " + table.about + "\n" + table_text(rows);
+  const std::size_t left = table.rows.size() + 1 - rows.size();
+  return "  " + table.about + "\n" + table_text(rows) +
+         (left > 0 ? "  ... " + std::to_string(left) + " more rows in " + table.name + ".csv\n" : "");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bough/io/digest.hpp"
+#include "bough/io/number_text.hpp"
 #include "bough/io/schema_rule.hpp"
 #include "bough/scene/problems.hpp"
 #include "document_report.hpp"
@@ -94,6 +95,32 @@ ReadScene read(std::string_view text, std::string name, std::span<const std::str
   return result;
 }
 
+/// The scene with each value of the parameter over which modes are asked for. A fault with one value is a fault of the
+/// file.
+void read_variants(SceneFile& file, std::string_view text, std::span<const std::string> set_overrides,
+                   const std::filesystem::path& folder) {
+  scene::CampbellAsked& asked = file.scene.analysis.campbell;
+  std::vector<std::string> overrides(set_overrides.begin(), set_overrides.end());
+  overrides.emplace_back();
+  for (std::size_t k = 0; k < asked.values.size(); ++k) {
+    std::string& set = overrides.back() = asked.parameter + "=";
+    append_number(set, asked.values[k]);
+    ReadScene variant = read(text, file.scene.name, overrides, folder);
+    if (variant.file.ok()) {
+      asked.scenes.push_back(std::make_shared<const scene::Scene>(std::move(variant.file.scene)));
+      continue;
+    }
+    const Problem& first = variant.file.problems.front();
+    Problem problem;
+    problem.pointer = "/analysis/values/" + std::to_string(k);
+    problem.value = set;
+    problem.rule = "the scene with this value is at fault: " + first.text();
+    problem.hint = "\"parameter\" is a JSON pointer to a number of the scene, as \"/parameters/speed\"";
+    file.problems.push_back(std::move(problem));
+    return;
+  }
+}
+
 /// Calls read_text(text, name) with the text of a file, or reports why it cannot be read.
 template <class ReadText>
 auto read_file(const std::filesystem::path& file, const ReadText& read_text) {
@@ -111,7 +138,9 @@ auto read_file(const std::filesystem::path& file, const ReadText& read_text) {
 
 SceneFile read_scene_text(std::string_view text, std::string name, std::span<const std::string> set_overrides,
                           const std::filesystem::path& folder) {
-  return read(text, std::move(name), set_overrides, folder).file;
+  SceneFile file = read(text, std::move(name), set_overrides, folder).file;
+  if (file.ok()) read_variants(file, text, set_overrides, folder);
+  return file;
 }
 
 ExpandedScene expanded_scene_text(std::string_view text, std::span<const std::string> set_overrides,

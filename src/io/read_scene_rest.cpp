@@ -322,7 +322,8 @@ void Converter::convert() {
   }
   const Value* analysis = root_.find("analysis");
   const Value* kind = analysis != nullptr && analysis->is(JsonKind::object) ? analysis->find("kind") : nullptr;
-  is_static_ = kind != nullptr && kind->text == "static";
+  const auto known = kind != nullptr ? scene::analysis_kind_named(kind->text.str()) : std::nullopt;
+  is_static_ = known && !scene::type_of(*known).is_in_time;
   find_signal_names();
   settings();
   each("frames", &Converter::frame);

@@ -118,7 +118,9 @@ laws::Law Converter::load_law(const Value& object, const std::string& at, std::s
   if (const Value* v = object.find("law")) return law_or_signal(*v, at + "/law", signal);
   if (!is_static_) return laws::make_constant(1.0);
   const Value* analysis = root_.find("analysis");
-  const bool is_path = analysis != nullptr && analysis->find("arc_length") != nullptr;
+  const Value* kind = analysis != nullptr ? analysis->find("kind") : nullptr;
+  const bool is_path =
+      analysis != nullptr && (analysis->find("arc_length") != nullptr || (kind != nullptr && kind->text == "buckling"));
   return is_path ? laws::make_expression("t") : laws::make_ramp(0.0, 1.0, 0.0, 1.0);
 }
 

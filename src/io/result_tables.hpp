@@ -11,7 +11,8 @@ namespace bough::io {
 
 /// Name of the file of a table. Files of tables of all analyses: table_files.
 std::string file_of(const records::Table& table);
-inline const std::vector<std::string> table_files{"modes.csv"};
+inline const std::vector<std::string> table_files{"modes.csv",        "response.csv", "spectra.csv",  "rms.csv",
+                                                  "linear_model.csv", "buckling.csv", "campbell.csv", "critical.csv"};
 
 /// A line of names, "frequency [Hz]", and a line a row.
 std::string table_csv(const records::Table& table);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "bough/io/number_text.hpp"
 #include "read_analysis.hpp"
@@ -220,7 +221,8 @@ std::vector<Option> dynamic_options() {
                "trial. Default: steps and mesh are those of the scene.")};
 }
 
-std::vector<Option> modes_options() {
+/// What all analyses are asked that linearise the equations about a state.
+std::vector<Option> about_options() {
   return {
       {may("about", rule_of_words(about_words),
            "start: the state of the scene at time 0, with its velocities. equilibrium: the static equilibrium under "
@@ -228,6 +230,12 @@ std::vector<Option> modes_options() {
            "so that what spins has its gyroscopic moments.",
            "\"equilibrium\""),
        [](const Value& v, Analysis& a) { a.start = static_cast<scene::StartKind>(kind_of_word(about_words, v)); }},
+      {may("tolerance", number_rule("", 0.0, true, 1e-2), "Of the equilibrium, as in dynamics [-].", "1e-8"),
+       [](const Value& v, Analysis& a) { a.tolerance = v.number; }}};
+}
+
+std::vector<Option> modes_options() {
+  return {
       {may("count", integer_rule("", 1, 10000),
            "Vibrations that are looked for. Rigid and unstable motions are listed besides, and all modes of the last "
            "frequency where it has several.",
@@ -240,9 +248,132 @@ std::vector<Option> modes_options() {
            "Dampers and damping of sections count: damping ratios and complex shapes. Otherwise they are left out; "
            "gyroscopic terms, loads that follow and signals count in any case.",
            "false"),
-       [](const Value& v, Analysis& a) { a.modes.damping = v.truth; }},
-      {may("tolerance", number_rule("", 0.0, true, 1e-2), "Of the equilibrium, as in dynamics [-].", "1e-8"),
-       [](const Value& v, Analysis& a) { a.tolerance = v.number; }}};
+       [](const Value& v, Analysis& a) { a.modes.damping = v.truth; }}};
+}
+
+/// What acts on linearised equations and what is looked at. more: further members of an input.
+std::vector<Option> port_options(std::vector<Field> more) {
+  std::vector<Field> members{
+      need("of", text_rule(""), "A load, a prescribed motion, a joint with a drive or an effort, or an input signal."),
+      may("component", text_rule(""),
+          "Of a prescribed motion \"x\", \"y\", \"z\" or \"angle\", of a joint its coordinate; needed where there are "
+          "several.")};
+  members.insert(members.end(), more.begin(), more.end());
+  return {{need("inputs",
+                array_rule("",
+                           choice_rule("What is excited, by a name alone where it has one component.",
+                                       {text_rule("Its name."), made(object_of("", std::move(members)))}),
+                           1, 1000),
+                "Each is a number that is added to the factor of a load, to a prescribed coordinate [m, rad], to an "
+                "effort [N, N m], or to an input signal."),
+           [](const Value& v, Analysis& a) {
+             for (const Value& item : v.items) {
+               scene::LinearInput& input = a.linear.inputs.emplace_back();
+               if (item.is(JsonKind::string)) {
+                 input.of = item.text.str();
+                 continue;
+               }
+               input.of = item.find("of")->text.str();
+               if (const Value* component = item.find("component")) input.component = component->text.str();
+               if (const Value* spectrum = item.find("spectrum"))
+                 for (const Value& point : spectrum->items)
+                   input.spectrum.emplace_back(point.items[0].number, point.items[1].number);
+             }
+           }},
+          {may("outputs", array_rule("", text_rule(""), 1, 1000), "Names of sensors. Default: all."),
+           [](const Value& v, Analysis& a) {
+             for (const Value& item : v.items) a.linear.outputs.push_back(item.text.str());
+           }}};
+}
+
+Option frequencies() {
+  Rule range =
+      object_of("A range.",
+                {need("from", not_negative(""), "[Hz]."), need("to", positive(""), "[Hz]."),
+                 may("count", integer_rule("", 2, 100000), "Of frequencies.", "200"),
+                 may("spacing", word_rule("", {"logarithmic", "linear"}), "Default: logarithmic, but linear from 0.")});
+  return {need("frequencies",
+               choice_rule("Frequencies [Hz].", {array_rule("A list.", not_negative(""), 1, 100000), made(range)}),
+               "At which steady vibrations are computed, each by a factorization of its own."),
+          [](const Value& v, Analysis& a) {
+            std::vector<double>& list = a.linear.frequencies;
+            if (v.is(JsonKind::array)) {
+              for (const Value& item : v.items) list.push_back(item.number);
+              return;
+            }
+            const double from = v.find("from")->number, to = v.find("to")->number;
+            const int count = whole(*v.find("count"));
+            const Value* spacing = v.find("spacing");
+            const bool is_linear = spacing != nullptr ? spacing->text == "linear" : !(from > 0.0);
+            for (int k = 0; k < count; ++k) {
+              const double part = static_cast<double>(k) / (count - 1);
+              list.push_back(is_linear || !(from > 0.0) ? from + part * (to - from) : from * std::pow(to / from, part));
+            }
+            list.back() = to;
+          }};
+}
+
+std::vector<Option> response_options() {
+  std::vector<Option> options = port_options({may(
+      "spectrum", array_rule("", array_rule("Frequency [Hz] and density.", not_negative(""), 2, 2), 2, 100000),
+      "One-sided power spectral density of a random input, linear between these points and zero outside [square of "
+      "its unit per Hz]: outputs then have spectra and root mean squares.")});
+  options.push_back(frequencies());
+  return options;
+}
+
+std::vector<Option> buckling_options() {
+  return {
+      {may("count", integer_rule("", 1, 1000),
+           "Critical load factors that are looked for, the lowest; all of the last one where it has several shapes.",
+           "1"),
+       [](const Value& v, Analysis& a) { a.buckling.count = whole(v); }},
+      {may("largest_factor", positive(""), "Load factor beyond which none is looked for [-].", "1e12"),
+       [](const Value& v, Analysis& a) { a.buckling.largest_factor = v.number; }},
+      {may("tolerance", number_rule("", 0.0, true, 1e-2), "Of equilibria, as in statics [-].", "1e-10"),
+       [](const Value& v, Analysis& a) { a.tolerance = v.number; }},
+      {may("max_iterations", integer_rule("", 1, 1000), "Newton's limit per load step.", "20"),
+       [](const Value& v, Analysis& a) { a.max_iterations = whole(v); }}};
+}
+
+/// A list of numbers, or a range of equal distances.
+RuleRef values_rule(Literal about) {
+  return choice_rule(
+      about, {array_rule("A list, ascending.", number_rule(""), 2, 1000),
+              made(object_of("A range.",
+                             {need("from", number_rule(""), "The first."), need("to", number_rule(""), "The last."),
+                              may("count", integer_rule("", 2, 1000), "Of values.", "21")}))});
+}
+
+std::vector<Option> campbell_options() {
+  static constexpr std::array speed_units{"rad/s", "rpm", "Hz"};
+  return {
+      {need("parameter", text_rule(""),
+            "JSON pointer to the number that varies, as \"/parameters/speed\" where formulas of the scene read it."),
+       [](const Value& v, Analysis& a) { a.campbell.parameter = v.text.str(); }},
+      {need("values", values_rule("What it is."), "Values of the parameter."),
+       [](const Value& v, Analysis& a) {
+         std::vector<double>& list = a.campbell.values;
+         if (v.is(JsonKind::array)) {
+           for (const Value& item : v.items) list.push_back(item.number);
+           return;
+         }
+         const double from = v.find("from")->number, to = v.find("to")->number;
+         const int count = whole(*v.find("count"));
+         for (int k = 0; k < count; ++k) list.push_back(from + (to - from) * k / (count - 1));
+         list.back() = to;
+       }},
+      {may("speed", rule_of_words(speed_units),
+           "Unit in which the parameter is a speed of rotation: excitations by multiples of it are drawn, and critical "
+           "speeds are located. Default: it is no speed."),
+       [](const Value& v, Analysis& a) {
+         static constexpr double in_radians[] = {1.0, 3.14159265358979323846 / 30.0, 2.0 * 3.14159265358979323846};
+         a.campbell.speed = in_radians[kind_of_word(speed_units, v)];
+       }},
+      {may("orders", array_rule("", positive(""), 1, 100), "Multiples of the speed that excite.", "[1]"),
+       [](const Value& v, Analysis& a) {
+         for (const Value& item : v.items) a.campbell.orders.push_back(item.number);
+       }}};
 }
 
 std::vector<Option> joined(std::vector<Option> options, const std::vector<Option>& further) {
@@ -269,7 +400,25 @@ const std::vector<KindOptions>& kinds() {
       {AnalysisKind::modes,
        "Modes of vibration about a state: frequencies, damping, shapes, effective masses, and what moves and bends in "
        "each.",
-       modes_options()}};
+       joined(about_options(), modes_options())},
+      {AnalysisKind::response,
+       "Steady vibrations about a state under harmonic inputs: amplitude and phase of sensors over the frequency, and "
+       "spectra under random inputs. Dampers and damping of sections count.",
+       joined(about_options(), response_options())},
+      {AnalysisKind::linear_model,
+       "The linearised equations about a state between inputs and sensors as matrices, E x' = A x + B u, y = C x + D "
+       "u, "
+       "and in minimal coordinates where these have up to 500 states. Dampers and damping of sections count.",
+       joined(about_options(), port_options({}))},
+      {AnalysisKind::buckling,
+       "Load factors at which a structure buckles, each about the shape that it has under its load there, and the "
+       "shapes "
+       "in which it does. Loads without a law, and gravity, grow with the load factor.",
+       buckling_options()},
+      {AnalysisKind::campbell,
+       "Modes about a state over a parameter of the scene, as the speed of a rotor: branches that are followed through "
+       "crossings, critical speeds and onsets of growth.",
+       joined(joined(about_options(), modes_options()), campbell_options())}};
   return list;
 }
 

@@ -37,8 +37,9 @@ int Builder::add_law(const laws::Law& law, const std::string& user) {
 int Builder::add_factor(const laws::Law& law, const std::string& user) {
   if (law.node() != nullptr) return add_law(law, user);
   if (plan.is_dynamic) return add_law(laws::make_constant(1.0), user);
-  // On a path followed by arc length, the load factor may be negative or above 1.
-  return add_law(scene.analysis.arc_length ? laws::make_expression("t") : laws::make_ramp(0.0, 1.0, 0.0, 1.0), user);
+  // On a path followed by arc length, the load factor may be negative or above 1, and structures buckle at any.
+  const bool ends_at_one = !scene.analysis.arc_length && scene.analysis.kind != scene::AnalysisKind::buckling;
+  return add_law(ends_at_one ? laws::make_ramp(0.0, 1.0, 0.0, 1.0) : laws::make_expression("t"), user);
 }
 
 int Builder::add_factor(const laws::Law& law, const std::string& signal, const std::string& user) {

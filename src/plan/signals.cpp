@@ -213,6 +213,8 @@ void Builder::part_signals() {
   // Step control keeps the errors of states within its tolerance, so that its steps follow from them.
   for (std::size_t i = 0; i < drives.size(); ++i)
     if (plan.signals[i].is_state() && scene.analysis.step_control) drives[i] = true;
+  // Sensors of linearised equations see signals as they follow from inputs and motions.
+  if (!scene.analysis.linear.inputs.empty()) drives.assign(drives.size(), true);
   std::vector<int> due;
   for (std::size_t i = 0; i < drives.size(); ++i)
     if (drives[i]) due.push_back(static_cast<int>(i));

@@ -13,6 +13,7 @@
 #include "error_bands.hpp"
 #include "round_off.hpp"
 #include "svg_text.hpp"
+#include "table_charts.hpp"
 #include "view_data.hpp"
 
 namespace bough::report {
@@ -148,6 +149,7 @@ void add_tables(Document& page, const std::vector<records::Table>& tables) {
     heading.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(heading.front())));
     page.section(heading);
     page.paragraph(table.about);
+    if (const std::vector<Chart> charts = charts_of(table); !charts.empty()) page.charts(charts);
     Table brief, whole;
     for (const records::Table::Column& column : table.columns) {
       whole.head.push_back(words_of(column.name) + (column.unit.empty() ? "" : " [" + column.unit + "]"));
@@ -163,7 +165,8 @@ void add_tables(Document& page, const std::vector<records::Table>& tables) {
       whole.rows.push_back(std::move(cells));
       brief.rows.push_back(std::move(few));
     }
-    page.table(brief);
+    constexpr std::size_t most_rows = 60;  // longer tables are folded
+    if (brief.rows.size() <= most_rows) page.table(brief);
     page.folded("All columns", whole, false);
   }
 }
@@ -207,7 +210,7 @@ bool is_of_kind(const RunFiles& run, std::string_view kind) {
 
 bool is_static(const RunFiles& run) { return is_of_kind(run, "static"); }
 
-bool is_of_modes(const RunFiles& run) { return is_of_kind(run, "modes"); }
+bool is_of_modes(const RunFiles& run) { return is_of_kind(run, "modes") || is_of_kind(run, "buckling"); }
 
 std::vector<std::string> mode_labels(const RunFiles& run) {
   std::vector<std::string> labels;
@@ -218,8 +221,12 @@ std::vector<std::string> mode_labels(const RunFiles& run) {
           std::find_if(table.columns.begin(), table.columns.end(), [&](const auto& c) { return c.name == name; });
       return row[static_cast<std::size_t>(at - table.columns.begin())];
     };
-    if (table.name != "modes") continue;
     for (const auto& row : table.rows) {
+      if (table.name == "buckling")
+        labels.push_back(std::to_string(labels.size() + 1) + ": load factor " +
+                         io::rounded_text(std::get<double>(cell(row, "load_factor")), 6) + ", " +
+                         std::get<std::string>(cell(row, "what")));
+      if (table.name != "modes") continue;
       const double frequency = std::get<double>(cell(row, "frequency"));
       labels.push_back(
           std::to_string(labels.size() + 1) + ": " +

@@ -57,6 +57,10 @@ std::vector<double> Analysis::stops_between(double begin, double end) const {
 
 std::unique_ptr<Analysis> make_inverse_dynamics(const Parts& parts);  // inverse_dynamics.cpp
 std::unique_ptr<Analysis> make_modes(const Parts& parts);             // modes.cpp
+std::unique_ptr<Analysis> make_response(const Parts& parts);          // response.cpp
+std::unique_ptr<Analysis> make_linear_model(const Parts& parts);      // linear_model.cpp
+std::unique_ptr<Analysis> make_buckling(const Parts& parts);          // buckling.cpp
+std::unique_ptr<Analysis> make_campbell(const Parts& parts);          // campbell.cpp
 
 namespace {
 
@@ -82,6 +86,14 @@ std::unique_ptr<Analysis> make_analysis(const Parts& parts) {
       return make_inverse_dynamics(parts);
     case scene::AnalysisKind::modes:
       return make_modes(parts);
+    case scene::AnalysisKind::response:
+      return make_response(parts);
+    case scene::AnalysisKind::linear_model:
+      return make_linear_model(parts);
+    case scene::AnalysisKind::buckling:
+      return make_buckling(parts);
+    case scene::AnalysisKind::campbell:
+      return make_campbell(parts);
   }
   throw std::logic_error("no analysis of this kind");
 }

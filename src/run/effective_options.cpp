@@ -32,12 +32,16 @@ records::EffectiveOptions effective_options(const scene::Scene& scene, const ste
   const scene::AnalysisType& kind = scene::type_of(scene.analysis.kind);
   list.emplace_back("analysis/kind", quoted(std::string(kind.name)));
   if (!scene.analysis.frame.empty()) list.emplace_back("analysis/frame", quoted(scene.analysis.frame));
-  if (kind.is_of_instant) {
+  if (kind.is_of_instant && kind.is_in_time) {
     list.emplace_back("analysis/about",
                       quoted(scene.analysis.start == scene::StartKind::equilibrium ? "equilibrium" : "start"));
-    list.emplace_back("analysis/count", std::to_string(scene.analysis.modes.count));
-    list.emplace_back("analysis/shift", number(scene.analysis.modes.shift));
-    list.emplace_back("analysis/damping", scene.analysis.modes.damping ? "true" : "false");
+    const bool is_over_parameter = scene.analysis.kind == scene::AnalysisKind::campbell;
+    if (is_over_parameter) list.emplace_back("analysis/parameter", quoted(scene.analysis.campbell.parameter));
+    if (is_over_parameter || scene.analysis.kind == scene::AnalysisKind::modes) {
+      list.emplace_back("analysis/count", std::to_string(scene.analysis.modes.count));
+      list.emplace_back("analysis/shift", number(scene.analysis.modes.shift));
+      list.emplace_back("analysis/damping", scene.analysis.modes.damping ? "true" : "false");
+    }
   } else if (kind.is_in_time) {
     if (scene.analysis.start == scene::StartKind::equilibrium)
       list.emplace_back("analysis/start", quoted("equilibrium"));
@@ -80,6 +84,9 @@ records::EffectiveOptions effective_options(const scene::Scene& scene, const ste
       list.emplace_back("analysis/arc_length/end_load_factor", number(l.end_load_factor));
       list.emplace_back("analysis/arc_length/after_limit_points", std::to_string(l.after_limit_points));
     }
+  } else if (scene.analysis.kind == scene::AnalysisKind::buckling) {
+    list.emplace_back("analysis/count", std::to_string(scene.analysis.buckling.count));
+    list.emplace_back("analysis/largest_factor", number(scene.analysis.buckling.largest_factor));
   } else if (!kind.is_in_time) {
     list.emplace_back("analysis/load_steps", std::to_string(scene.analysis.load_steps));
   }

@@ -9,6 +9,7 @@
 
 #include "analysis.hpp"
 #include "bough/records/no_recorder.hpp"
+#include "bough/scene/linear_inputs.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "bough/schedule/threads.hpp"
 #include "judgement.hpp"
@@ -49,10 +50,11 @@ struct Simulation::Impl {
        ProgressCallback given_progress)
       : asked(std::move(given_options)),
         progress(std::move(given_progress)),
-        scene(given),
+        with_inputs(given.analysis.linear.inputs.empty() ? std::nullopt : std::optional(scene::with_inputs(given))),
+        scene(with_inputs ? *with_inputs : given),
         recorder(given_recorder != nullptr ? *given_recorder : no_recorder),
-        plan(plan::make_plan(given)),
-        options(options_for(given, plan)),
+        plan(plan::make_plan(scene)),
+        options(options_for(scene, plan)),
         threads(threads_for(given, plan, asked.threads)),
         system(plan, given.solver, asked.wrap_walker ? asked.wrap_walker(threads.walker()) : threads.walker()),
         state(step::make_initial_state(plan)) {
@@ -140,6 +142,7 @@ struct Simulation::Impl {
   records::NoRecorder no_recorder;
   const SimulateOptions asked;
   const ProgressCallback progress;
+  const std::optional<scene::Scene> with_inputs;  ///< where equations are linearised between inputs and sensors
   const scene::Scene& scene;
   records::Recorder& recorder;
   plan::Plan plan;

@@ -8,6 +8,10 @@ const std::vector<AnalysisType>& analysis_types() {
       {AnalysisKind::dynamics, "dynamic", "dynamics", true, true},
       {AnalysisKind::inverse_dynamics, "inverse_dynamics", "inverse dynamics", true, false},
       {AnalysisKind::modes, "modes", "modes", true, false, true, true},
+      {AnalysisKind::response, "response", "a frequency response", true, false, true, true},
+      {AnalysisKind::linear_model, "linear_model", "a linear model", true, false, true, true},
+      {AnalysisKind::buckling, "buckling", "buckling", false, false, true, true},
+      {AnalysisKind::campbell, "campbell", "a Campbell diagram", true, false, true, true},
   };
   return types;
 }

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "bough/motion/se3.hpp"
+#include "bough/scene/analysis_kinds.hpp"
 #include "bough/scene/part_lengths.hpp"
 #include "problem_list.hpp"
 
@@ -314,7 +315,7 @@ void check_motions(ProblemList& list) {
     if (!thing || thing->kind != ThingKind::beam) list.check_place("initial_velocities", i, "of", v.of, false);
     if (!started.insert(v.of).second)
       list.add("initial_velocities", i, "of", v.of, "this thing has an initial velocity already");
-    if (s.analysis.kind == AnalysisKind::statics)
+    if (!type_of(s.analysis.kind).is_in_time)
       list.warn("initial_velocities", i, "", "", "the analysis is static: an initial velocity does nothing");
     if (thing && thing->kind == ThingKind::body && s.bodies[thing->index].is_point_mass && !is_zero(v.angular_velocity))
       list.warn("initial_velocities", i, "angular_velocity", "", "a point mass does not turn");

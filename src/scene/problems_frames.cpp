@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "bough/scene/analysis_kinds.hpp"
 #include "bough/scene/moving_frame.hpp"
 #include "problem_list.hpp"
 
@@ -74,7 +75,7 @@ void check_frames(ProblemList& list) {
   const std::vector<std::size_t>& way = list.poses.frames().above_ground();
   const std::string& last = s.frames[way.back()].placement.frame;
   const bool is_whole = last.empty() || last == "ground";  // otherwise another problem has been reported already
-  if (is_whole && s.analysis.kind == AnalysisKind::statics) check_steady(list, way);
+  if (is_whole && !type_of(s.analysis.kind).is_in_time) check_steady(list, way);
 }
 
 }  // namespace bough::scene

@@ -4,6 +4,7 @@
 
 #include "bough/scene/analysis_kinds.hpp"
 #include "bough/scene/joint_efforts.hpp"
+#include "bough/scene/linear_inputs.hpp"
 #include "bough/scene/moving_frame.hpp"
 #include "bough/scene/nearest_name.hpp"
 #include "bough/scene/spin.hpp"
@@ -134,7 +135,7 @@ void check_tolerance(ProblemList& list, const char* part, std::size_t i, const E
 void check_figure(ProblemList& list, std::size_t i) {
   const Expected& e = list.scene.expected[i];
   const std::string figure = to_string(e.figure);
-  const bool is_static = list.scene.analysis.kind == AnalysisKind::statics;
+  const bool is_static = !type_of(list.scene.analysis.kind).is_in_time;
   if (e.time && e.figure != FigureKind::value)
     list.add("expected", i, "time", text_of(*e.time), "a " + figure + " is one of the whole run, not of a time",
              "leave out \"time\", or take the figure \"value\"");
@@ -201,7 +202,7 @@ void check_measure(ProblemList& list, std::size_t i) {
   if (!m.is_of_measures)
     for (const auto& [name, quantity] : m.names) check_quantity(list, "measures", i, "of/" + name, quantity);
   const std::string figure = to_string(m.kind);
-  const bool is_static = list.scene.analysis.kind == AnalysisKind::statics;
+  const bool is_static = !type_of(list.scene.analysis.kind).is_in_time;
   const bool is_of_time = m.kind == MeasureKind::period || m.kind == MeasureKind::dominant_frequency ||
                           m.kind == MeasureKind::settling_time;
   if (is_static && is_of_time)
@@ -325,6 +326,50 @@ void check_accuracy(ProblemList& list) {
   }
 }
 
+void check_campbell(ProblemList& list) {
+  const CampbellAsked& asked = list.scene.analysis.campbell;
+  if (!asked.parameter.empty() && asked.parameter.front() != '/')
+    list.add("analysis", 0, "parameter", asked.parameter, "a JSON pointer begins with '/'",
+             "for instance \"/parameters/speed\"");
+  for (std::size_t k = 1; k < asked.values.size(); ++k)
+    if (!(asked.values[k] > asked.values[k - 1])) {
+      list.add("analysis", 0, "values", text_of(asked.values[k]), "values have to ascend");
+      break;
+    }
+}
+
+void check_linear(ProblemList& list) {
+  const LinearAsked& asked = list.scene.analysis.linear;
+  for (std::size_t k = 0; k < asked.inputs.size(); ++k) {
+    const LinearInput& input = asked.inputs[k];
+    const std::string key = "inputs/" + std::to_string(k);
+    if (list.is_defective(input.of)) continue;
+    const InputPlace place = place_of(list.scene, input);
+    const bool is_of_component = place.hint.find("component") != std::string::npos;
+    if (place.kind == InputPlace::Kind::none)
+      list.add("analysis", 0, key + (is_of_component && !input.component.empty() ? "/component" : "/of"),
+               is_of_component && !input.component.empty() ? input.component : input.of, place.fault, place.hint);
+    for (std::size_t j = 0; j < k; ++j)
+      if (name_of(asked.inputs[j]) == name_of(input))
+        list.add("analysis", 0, key, name_of(input), "this input is named twice");
+    for (std::size_t i = 1; i < input.spectrum.size(); ++i)
+      if (!(input.spectrum[i].first > input.spectrum[i - 1].first))
+        list.add("analysis", 0, key + "/spectrum/" + std::to_string(i), text_of(input.spectrum[i].first),
+                 "frequencies of a spectrum have to ascend");
+  }
+  for (std::size_t k = 0; k < asked.outputs.size(); ++k)
+    list.check_reference("analysis", 0, "outputs/" + std::to_string(k), asked.outputs[k], list.sensors, "sensor");
+  if (!asked.inputs.empty() && list.scene.sensors.empty())
+    list.add("analysis", 0, "outputs", "", "there is no sensor that could be an output",
+             "add what is asked for to \"sensors\"");
+  for (std::size_t k = 1; k < asked.frequencies.size(); ++k)
+    if (!(asked.frequencies[k] > asked.frequencies[k - 1])) {
+      list.add("analysis", 0, "frequencies/" + std::to_string(k), text_of(asked.frequencies[k]),
+               "frequencies have to ascend");
+      break;
+    }
+}
+
 }  // namespace
 
 void check_analysis(ProblemList& list) {
@@ -340,6 +385,8 @@ void check_analysis(ProblemList& list) {
     list.add("analysis", 0, "arc_length", "", "paths by arc length do not know frames that move",
              "inertial loads grow with the square of the speed and have no negative factor: take load_steps");
   check_accuracy(list);
+  check_linear(list);
+  check_campbell(list);
   if (a.arc_length && a.accuracy)
     list.add("analysis", 0, "accuracy", "", "the steps along a path are free, so that paths cannot be compared",
              "leave out accuracy or arc_length");

@@ -16,6 +16,7 @@ constexpr int most_vectors = 40;       ///< of the Krylov space
 constexpr double is_found = 1e-6;      ///< relative residual of an eigenvalue that counts
 constexpr double least_growth = 1e-3;  ///< relative to the frequency: below this it may be round-off of a double one
 constexpr double slowest = 1e-6;       ///< eigenvalues below this part of the largest are not looked at
+constexpr double beside_zero = 1e-12;  ///< shift where K alone is not factored soundly, over the largest K_ii / M_ii
 
 /// The node that moves most in a vibration.
 int largest_node(const Linearisation& linear, const std::vector<std::complex<double>>& shape) {
@@ -29,7 +30,13 @@ int largest_node(const Linearisation& linear, const std::vector<std::complex<dou
 std::optional<Flutter> find_flutter(System& system, const State& state) {
   using Part = Linearisation::Part;
   Linearisation linear(system);
-  if (linear.take(state) || !linear.factor({}, solve::Symmetry::general).ok()) return std::nullopt;
+  if (linear.take(state)) return std::nullopt;
+  // Bodies that joints alone hold have no stiffness of their own: K + s M has no pivots of zero.
+  double shift = 0.0;
+  if (!linear.factor_soundly({}, solve::Symmetry::general)) {
+    shift = beside_zero * linear.fastest();
+    if (!(shift > 0.0) || !linear.factor_soundly({.mass = shift}, solve::Symmetry::general)) return std::nullopt;
+  }
   std::vector<double> forces(linear.size()), start(linear.size());
   Krylov space(
       [&](const std::vector<double>& x, std::vector<double>& y) {
@@ -48,10 +55,10 @@ std::optional<Flutter> find_flutter(System& system, const State& state) {
   if (!space.begin(start) || !space.extend(most_vectors)) return std::nullopt;
   const std::vector<Krylov::Ritz> found = space.eigenvalues(false);
   Flutter worst;
-  for (const Krylov::Ritz& one : found) {  // 1 / squared frequencies
+  for (const Krylov::Ritz& one : found) {  // 1 / (squared frequencies + shift)
     const double size = std::abs(one.value);
     if (size < slowest * std::abs(found.front().value) || one.residual > is_found * size) continue;
-    const std::complex<double> frequency = std::sqrt(1.0 / one.value);
+    const std::complex<double> frequency = std::sqrt(1.0 / one.value - shift);
     const double growth = std::abs(frequency.imag());
     if (growth <= least_growth * std::abs(frequency) || growth <= worst.growth) continue;
     worst = {true, std::abs(frequency.real()), growth, largest_node(linear, space.vector_of(one))};

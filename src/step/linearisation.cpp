@@ -101,6 +101,24 @@ std::optional<Trouble> Linearisation::take(const State& state) {
   return trouble;
 }
 
+std::span<const double> Linearisation::matrix_of(Part part, int element) const {
+  const std::size_t begin = at(matrix_begin_[at(element)]), end = at(matrix_begin_[at(element) + 1]);
+  return {of(part).data() + begin, end - begin};
+}
+
+void Linearisation::take_difference(Part to, double factor, const Linearisation& other) {
+  Vector& difference = parts_[static_cast<std::size_t>(to)];
+  difference.assign(parts_[0].size(), 0.0);
+  for (int e = 0; e < num_elements(); ++e) {
+    const std::span<const std::int64_t> unknowns = unknowns_of(e);
+    const std::size_t n = unknowns.size(), begin = at(matrix_begin_[at(e)]);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n && is_row_[at(unknowns[i])] == 0; ++j)
+        if (const std::size_t k = begin + i * n + j; is_row_[at(unknowns[j])] == 0)
+          difference[k] = factor * (parts_[0][k] - other.parts_[0][k]);
+  }
+}
+
 /// (A + sign A^T) / 2 of one element
 void Linearisation::mix_with_transpose(Part part, int element, double sign) {
   const std::size_t n = size_of(element);
@@ -123,6 +141,20 @@ void Linearisation::leave_out_dampers() {
     plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
       if (elements::dissipates(e)) mix_with_transpose(Part::damping, static_cast<int>(id), -1.0);
     });
+}
+
+void Linearisation::leave_out_signals() {
+  std::vector<char> is_signal(size(), 0);
+  for (const std::size_t unknown : system_.places().signals()) is_signal[unknown] = 1;
+  for (int e = 0; e < num_elements(); ++e) {
+    const std::span<const std::int64_t> unknowns = unknowns_of(e);
+    const std::size_t n = unknowns.size(), begin = at(matrix_begin_[at(e)]);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        if (i != j && (is_signal[at(unknowns[i])] != 0 || is_signal[at(unknowns[j])] != 0))
+          for (Vector& part : parts_)
+            if (!part.empty()) part[begin + i * n + j] = 0.0;
+  }
 }
 
 /// to += factor of ad(v), by element and node
@@ -305,6 +337,24 @@ solve::FactorStatus Linearisation::factor(const Combination& of_parts, solve::Sy
   factored_->rescale();
   ++factorizations_;
   return factored_->factor(system_.walker());
+}
+
+bool Linearisation::factor_soundly(const Combination& of_parts, solve::Symmetry symmetry) {
+  constexpr double allowed = 1e-6;
+  if (!factor(of_parts, symmetry).ok()) return false;
+  Vector known = vector_without_zeros(size()), forces(size()), found(size()), again(size());
+  for (std::size_t i = 0; i < size(); ++i)
+    if (weights_[i] > 0.0) known[i] /= std::sqrt(weights_[i]);
+  factored_->multiply(system_.walker(), known.data(), forces.data());
+  if (!solve(forces, found)) return false;
+  factored_->multiply(system_.walker(), found.data(), again.data());
+  double left[2] = {0.0, 0.0}, whole[2] = {0.0, 0.0};  // of forces, and of constraint rows
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double weight = is_row_[i] != 0 ? 1.0 : 1.0 / weights_[i];
+    left[is_row_[i]] += weight * (again[i] - forces[i]) * (again[i] - forces[i]);
+    whole[is_row_[i]] += weight * forces[i] * forces[i];
+  }
+  return left[0] <= allowed * allowed * whole[0] && left[1] <= allowed * allowed * whole[1];
 }
 
 bool Linearisation::solve(std::span<const double> rhs, std::span<double> x) {

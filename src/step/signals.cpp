@@ -66,10 +66,11 @@ double Signals::turns_of(const plan::SignalPlan& signal, const State& state) con
 }
 
 /// Size of what rounds an equation beside the terms of f: a reading is rounded as poses are, whose size is that of the
-/// structure or 1 rad, and the rate of a state as the state is.
+/// structure or 1 rad, and the rate of a state as the state is. Where signals prescribe coordinates, they are solved for
+/// together with poses, and are rounded as these, also where they are zero.
 double Signals::size_of(const plan::SignalPlan& s, double value, const elements::Slopes& slopes) const {
   if (s.is_state()) return std::abs(slopes.rate * value);
-  if (!s.reads_motion()) return 0.0;
+  if (!s.reads_motion()) return plan_.signals_drive ? std::max(plan_.length_scale, 1.0) : 0.0;
   const elements::Effort& read = s.reading.efforts[0];
   const double of_pose = motion::traits_of(read.coordinate).is_length ? plan_.length_scale : 1.0;
   return (std::abs(read.stiffness) + std::abs(read.damping) * slopes.velocity) * of_pose;

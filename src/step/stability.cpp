@@ -19,8 +19,35 @@ constexpr int most_iterations = 30;  ///< limit of inverse iterations with one s
 constexpr double settled = 1e-3;     ///< relative change of the curvature at convergence; the node is known earlier
 constexpr int most_shifts = 60;      ///< limit of shifts, each four times the last
 constexpr double neutral = 1e-11;    ///< part of the diagonal that is added if the tangent is singular
+constexpr double beside_neutral = 1e-14;  ///< the same of the largest entry, for what has no diagonal
 
 }  // namespace
+
+UnstableMode unstable_mode_of(const System& system, const State& state, const std::vector<double>& x) {
+  UnstableMode moves, turns;
+  double most_moved = 0.0, most_turned = 0.0;
+  const plan::Plan& plan = system.plan();
+  for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
+    const Vec6<double> eta = system.places().node_part(x.data(), static_cast<int>(n));
+    const motion::Mat3<double>& R = nodes_in_space(system.plan(), state)[n].R;
+    const Vec3<double> u = R * lanes::linear_part(eta), w = R * lanes::angular_part(eta);
+    if (length_of(u) > most_moved) {
+      most_moved = length_of(u);
+      moves = {static_cast<int>(n), (1.0 / most_moved) * u, false};
+    }
+    if (length_of(w) > most_turned) {
+      most_turned = length_of(w);
+      turns = {static_cast<int>(n), (1.0 / most_turned) * w, true};
+    }
+  }
+  constexpr double still = 1e-6;  // relative to the size of the structure, or rad
+  UnstableMode mode = most_moved > still * plan.length_scale * most_turned ? moves : turns;
+  int largest = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(mode.direction[i]) > std::abs(mode.direction[largest]) + still) largest = i;
+  if (mode.direction[largest] < 0.0) mode.direction = -1.0 * mode.direction;
+  return mode;
+}
 
 Stability::Stability(System& system) : system_(system) {
   const blocks::BlockGraph& g = system.plan().graph;
@@ -57,14 +84,19 @@ StabilityLook Stability::read_copy() {
   return read(copy_->solver().inertia(), copy_->solver().last_status().deficiency);
 }
 
-/// Factors a copy of the present tangents, K + shift N + relative_shift |diag K|.
+/// Factors a copy of the present tangents, K + shift N + relative_shift |diag K|. Bodies that joints alone hold have no
+/// diagonal of their own: where their factor is not sound, a part of the largest entry is added for them, too.
 bool Stability::factor_copy(double shift, double relative_shift) {
   if (!copy_) copy_ = std::make_unique<Linearisation>(system_);
   copy_->take_tangents();
-  return copy_
-      ->factor({.weights = shift, .of_diagonal = relative_shift},
-               is_conservative() ? solve::Symmetry::symmetric : solve::Symmetry::general)
-      .ok();
+  const auto symmetry = is_conservative() ? solve::Symmetry::symmetric : solve::Symmetry::general;
+  const auto factor = [&](double weights) {
+    return copy_->factor({.weights = shift + weights, .of_diagonal = relative_shift}, symmetry).ok();
+  };
+  if (relative_shift == 0.0) return copy_->factor_soundly({.weights = shift}, symmetry);
+  if (copy_->factor_soundly({.weights = shift, .of_diagonal = relative_shift}, symmetry)) return true;
+  const double scale = system_.plan().length_scale;
+  return factor(beside_neutral * copy_->largest(Linearisation::Part::stiffness) * scale * scale) || factor(0.0);
 }
 
 /// Inverse iteration from x with the factored copy: y = (K + shift N)^-1 N x on ker G. Returns the curvature y^T (K +
@@ -102,38 +134,13 @@ std::optional<UnstableMode> Stability::find_mode(const State& state) {
       x[i] = copy_->weights()[i] > 0.0 ? 1.0 + std::sin(static_cast<double>(7 * i + 1)) : 0.0;
     const double shifted = iterate(x, y), curvature = shifted - shift;
     const double noise = copy_->round_off(Linearisation::Part::stiffness, x);
-    if (std::isfinite(curvature) && curvature * copy_->inner(x, x) < -noise) return mode_of(state, x);
-    if (!is_conservative()) return mode_of(state, x);  // the eigenvalue nearest to zero changed its sign
+    if (std::isfinite(curvature) && curvature * copy_->inner(x, x) < -noise) return unstable_mode_of(system_, state, x);
+    if (!is_conservative())
+      return unstable_mode_of(system_, state, x);  // the eigenvalue nearest to zero changed its sign
     shift = shift == 0.0 ? 1.5 * std::abs(curvature) : 4.0 * shift;
     if (!(shift > 0.0) || !std::isfinite(shift)) return std::nullopt;
   }
   return std::nullopt;
-}
-
-UnstableMode Stability::mode_of(const State& state, const std::vector<double>& x) const {
-  UnstableMode moves, turns;
-  double most_moved = 0.0, most_turned = 0.0;
-  const plan::Plan& plan = system_.plan();
-  for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
-    const Vec6<double> eta = system_.places().node_part(x.data(), static_cast<int>(n));
-    const motion::Mat3<double>& R = nodes_in_space(system_.plan(), state)[n].R;
-    const Vec3<double> u = R * lanes::linear_part(eta), w = R * lanes::angular_part(eta);
-    if (length_of(u) > most_moved) {
-      most_moved = length_of(u);
-      moves = {static_cast<int>(n), (1.0 / most_moved) * u, false};
-    }
-    if (length_of(w) > most_turned) {
-      most_turned = length_of(w);
-      turns = {static_cast<int>(n), (1.0 / most_turned) * w, true};
-    }
-  }
-  constexpr double still = 1e-6;  // relative to the size of the structure, or rad
-  UnstableMode mode = most_moved > still * plan.length_scale * most_turned ? moves : turns;
-  int largest = 0;
-  for (int i = 1; i < 3; ++i)
-    if (std::abs(mode.direction[i]) > std::abs(mode.direction[largest]) + still) largest = i;
-  if (mode.direction[largest] < 0.0) mode.direction = -1.0 * mode.direction;
-  return mode;
 }
 
 }  // namespace bough::step

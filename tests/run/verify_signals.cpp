@@ -339,6 +339,24 @@ TEST(Signals, start_in_the_equilibrium_of_their_loop) {
   EXPECT_LT(r.history.largest("rate"), 1e-10);
 }
 
+/// What an input at zero prescribes is solved for together with what pulls at it: the round-off of that is no miss.
+TEST(Signals, an_input_at_zero_holds_what_it_prescribes) {
+  for (const char* const start : {"given", "equilibrium"}) {
+    const Outcome r = run_ok(scene_of(std::string(R"-({"gravity": [0, 0, -9.81],
+      "materials": [{"name": "steel", "young": 2.1e11, "poisson": 0.3, "density": 7850}],
+      "sections": [{"name": "bar", "material": "steel", "shape": {"kind": "circle", "radius": 0.02}}],
+      "nodes": [{"name": "foot"}],
+      "bodies": [{"name": "head", "mass": 4, "inertia": [0.1, 0.1, 0.1], "position": [0.1, 0, 2]}],
+      "beams": [{"name": "mast", "section": "bar", "start": "foot", "end": {"to": "head", "position": [-0.1, 0, 0]}}],
+      "signals": [{"name": "shake", "kind": "input"}],
+      "motions": [{"name": "table", "at": "foot", "x": {"signal": "shake"}, "y": 0, "z": 0, "rotation": "hold"}],
+      "sensors": [{"name": "foot", "kind": "position", "at": "foot"}],
+      "analysis": {"kind": "dynamic", "end_time": 0.02, "step_size": 1e-3, "start": ")-") +
+                                      start + "\"}}"));
+    EXPECT_LT(r.history.largest("foot.x"), 1e-15);
+  }
+}
+
 TEST(Signals, what_is_not_finite_is_named) {
   const test::Untrapped untrapped;
   const Outcome r =

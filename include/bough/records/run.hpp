@@ -279,6 +279,7 @@ struct MeasureResult {
 using EffectiveOptions = std::vector<std::pair<std::string, std::string>>;
 
 struct MeasuredErrors;  // errors.hpp
+struct LinearModel;     // linear_model.hpp
 
 struct Summary {
   RunStatus status = RunStatus::failed;
@@ -312,7 +313,8 @@ struct Summary {
   std::vector<LevelFigures> levels;  ///< of the hierarchical solver
   std::vector<std::pair<std::string, double>>
       solver;  ///< figures of the tree: sub-domains, levels, interface unknowns, condition, ...
-  std::shared_ptr<const MeasuredErrors> errors;  ///< by twins of the run; null: none ran
+  std::shared_ptr<const MeasuredErrors> errors;     ///< by twins of the run; null: none ran
+  std::shared_ptr<const LinearModel> linear_model;  ///< null: none was asked for
   /// What changes while the run goes on; the rest follows from the scene, or is completed at the end.
   void checkpoint(Archive& archive) {
     archive(status, cause, options, steps, times, checks, changed_velocities, limit_points, bifurcations, notes,

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -313,7 +314,16 @@ struct Sensor {
   std::vector<std::string> chain;  ///< acceleration_split: frames, nodes or bodies, each moving in the previous one
 };
 
-enum class AnalysisKind : std::uint8_t { statics, dynamics, inverse_dynamics, modes };
+enum class AnalysisKind : std::uint8_t {
+  statics,
+  dynamics,
+  inverse_dynamics,
+  modes,
+  response,
+  linear_model,
+  buckling,
+  campbell,
+};
 enum class Newton : std::uint8_t { full, single };
 enum class Integrator : std::uint8_t { generalized_alpha, variational, bdf };
 
@@ -370,6 +380,42 @@ struct ModesAsked {
   bool damping = false;  ///< dampers count
 };
 
+/// An input of the linearised equations: a number u that is added to the factor of a load, to a prescribed coordinate,
+/// to an effort along a joint's coordinate, or to an input signal (linear_inputs.hpp).
+struct LinearInput {
+  std::string of;         ///< a point or line load, a prescribed motion, a joint, or a signal of kind input
+  std::string component;  ///< of a prescribed motion "x", "y", "z" or "angle", of a joint its coordinate; empty: the
+                          ///< only one
+  /// One-sided power spectral density, [Hz, square of the unit of u / Hz], frequencies ascending; empty: none is asked.
+  std::vector<std::pair<double, double>> spectrum;
+};
+
+/// What is asked of the linearised equations between inputs and sensors. About which state is Analysis::start.
+struct LinearAsked {
+  std::vector<LinearInput> inputs;
+  std::vector<std::string> outputs;  ///< names of sensors; empty: all
+  std::vector<double> frequencies;   ///< of the response [Hz], ascending
+};
+
+/// What is asked of buckling: load factors at which the tangent of the loaded structure becomes singular.
+struct BucklingAsked {
+  int count = 1;                 ///< critical load factors
+  double largest_factor = 1000;  ///< beyond which none is looked for
+};
+
+struct Scene;
+
+/// What is asked of modes over a parameter. How many modes, next to which frequency and whether dampers count is
+/// Analysis::modes.
+struct CampbellAsked {
+  std::string parameter;       ///< JSON pointer
+  std::vector<double> values;  ///< that it takes, ascending
+  /// rad/s of a unit of the parameter where it is a speed; 0: it is none.
+  double speed = 0.0;
+  std::vector<double> orders;                        ///< multiples of the speed that excite
+  std::vector<std::shared_ptr<const Scene>> scenes;  ///< the scene with each of these values
+};
+
 struct Analysis {
   AnalysisKind kind = AnalysisKind::dynamics;
   /// The frame in which the scene is described, which is the "ground" of all parts that name no frame. Empty: the
@@ -381,7 +427,7 @@ struct Analysis {
   std::optional<ArcLength> arc_length;  ///< instead of load steps
   bool unstable = false;                ///< unstable equilibria are expected: the run casts no doubt on them
   // dynamics
-  StartKind start = StartKind::given;  ///< also of what modes are about
+  StartKind start = StartKind::given;  ///< also of what modes and linearised equations are about
   double end_time = 0.0;               ///< [s]
   double step_size = 1e-3;             ///< h [s]; of the first step where sizes are controlled
   std::optional<StepControl> step_control;
@@ -390,6 +436,9 @@ struct Analysis {
   int bdf_order = 0;             ///< of backward differences: 2 or 3; 0: 3, but 2 where undamped vibrations would grow
   double newmark_beta = 0.3;     ///< of the variational integrator, for vibrations
   ModesAsked modes;
+  LinearAsked linear;
+  BucklingAsked buckling;
+  CampbellAsked campbell;
   // both
   Newton newton = Newton::full;
   double tolerance = 1e-8;  ///< of relative motions and of residuals relative to their contributions [-]

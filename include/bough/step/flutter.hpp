@@ -16,7 +16,8 @@ struct Flutter {
 /// The vibrations M x'' + K x = 0, G x = 0 about an equilibrium under loads without a potential, whose K is not
 /// symmetric. `system` is one with inertia, at the time of the state, which is at rest. Eigenvalues of K^-1 M, 1 over
 /// squared frequencies, by Arnoldi's method: those of the slowest vibrations, which are the first to flutter. Dampers
-/// are left out. Nothing if K is singular, or where nothing has mass. Allocates.
+/// are left out. A shift by M takes the place of K alone where that is not factored soundly. Nothing if K is singular, or
+/// where nothing has mass. Allocates.
 std::optional<Flutter> find_flutter(System& system, const State& state);
 
 }  // namespace bough::step

@@ -35,10 +35,15 @@ class Linearisation {
   [[nodiscard]] std::optional<Trouble> take(const State& state);
   /// Copies the tangents that are present in the system as K. There are no C and M then.
   void take_tangents();
+  /// Puts  factor (K - K_other)  in place of C or M, between motions: entries of constraint rows are zero. `other` is of
+  /// the same system.
+  void take_difference(Part to, double factor, const Linearisation& other);
   /// Puts (A + A^T) / 2 in place of a matrix.
   void take_symmetric_part(Part part);
   /// Puts (C - C^T) / 2 in place of C for elements that dissipate energy.
   void leave_out_dampers();
+  /// Removes what motions and signals do to each other: signals then stay as they are.
+  void leave_out_signals();
   /// Describes motions from axes that stand still at the velocities of the state. With v the velocity of a node, H = H_0
   /// exp(x) exp(v t), so that
   ///   C <- C - M ad(v),  ad(v) x = (w_v x u + u_v x w; w_v x w)   for v = (u_v; w_v), x = (u; w).
@@ -68,6 +73,9 @@ class Linearisation {
   double form(Part part, int element, std::span<const double> x, std::span<const double> y) const;
   /// Round-off of x^T A x, multipliers left out: 64 eps sum |x_i| |A_ij| |x_j| over all elements.
   double round_off(Part part, std::span<const double> x) const;
+  /// Entries of the matrix of an element, row after row, in the order of unknowns_of.
+  std::span<const double> matrix_of(Part part, int element) const;
+  bool is_multiplier(std::size_t unknown) const { return is_row_[unknown] != 0; }
   int num_elements() const { return static_cast<int>(unknown_begin_.size()) - 1; }
   /// The unknowns of an element, in the order of its rows.
   std::span<const std::int64_t> unknowns_of(int element) const;
@@ -81,6 +89,10 @@ class Linearisation {
 
   /// Factors a combination. symmetric: the symmetric parts of the matrices of elements are factored.
   [[nodiscard]] solve::FactorStatus factor(const Combination& of, solve::Symmetry symmetry);
+  /// The same, with a trial: the solution under the forces of known motions and multipliers has these forces again, to
+  /// 1e-6. Where bodies have no stiffness of their own and rows of constraints depend on each other, it does not always,
+  /// although the factorization tells of no fault. False: it failed.
+  [[nodiscard]] bool factor_soundly(const Combination& of, solve::Symmetry symmetry);
   /// x = A^-1 rhs, may be the same. False: it is not finite.
   [[nodiscard]] bool solve(std::span<const double> rhs, std::span<double> x);
   solve::Hierarchical& solver() { return *factored_; }  ///< of the combination that was factored last

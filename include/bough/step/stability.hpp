@@ -29,6 +29,9 @@ struct UnstableMode {
   bool turns = false;              ///< the mode is one of rotations alone
 };
 
+/// Of motions by unknown, the node that moves most, or that turns most where nothing moves.
+UnstableMode unstable_mode_of(const System& system, const State& state, const std::vector<double>& x);
+
 class Stability {
  public:
   explicit Stability(System& system);
@@ -56,7 +59,6 @@ class Stability {
   bool factor_copy(double shift, double relative_shift);
   StabilityLook read_copy();
   double iterate(std::vector<double>& x, std::vector<double>& y);
-  UnstableMode mode_of(const State& state, const std::vector<double>& x) const;
 
   System& system_;
   int num_rows_ = 0;  ///< of constraints, of which the solver knows

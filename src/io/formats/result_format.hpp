@@ -89,5 +89,6 @@ ResultFormat paraview();  ///< in builds with BOUGH_WITH_VTK
 ResultFormat gltf();
 ResultFormat errors_csv_format();
 ResultFormat tables_csv();
+ResultFormat linear_model();
 
 }  // namespace bough::io

@@ -10,7 +10,7 @@ const std::vector<ResultFormat>& result_formats() {
 #ifdef BOUGH_HAS_VTK
       paraview(),
 #endif
-      gltf(),        errors_csv_format(), tables_csv(),
+      gltf(),        errors_csv_format(), tables_csv(),   linear_model(),
   };
   return formats;
 }
