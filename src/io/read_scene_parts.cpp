@@ -293,7 +293,8 @@ void Converter::tell_meshes() {
   for (const auto& [name, at] : inner_nodes) {
     const std::string of = name.substr(0, name.rfind('.'));
     if (std::find(beams_without_mesh.begin(), beams_without_mesh.end(), of) == beams_without_mesh.end()) continue;
-    const auto beam = std::find_if(scene.beams.begin(), scene.beams.end(), [&of](const auto& b) { return b.name == of; });
+    const auto beam =
+        std::find_if(scene.beams.begin(), scene.beams.end(), [&of](const auto& b) { return b.name == of; });
     const double nodes = beam->elements * beam->order;
     const double place = std::strtod(name.c_str() + name.rfind('.') + 1, nullptr) / nodes;
     warnings.push_back({at, "\"" + name + "\"",

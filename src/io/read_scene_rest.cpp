@@ -288,8 +288,8 @@ void Converter::settings() {
     if (const Value* formats = o->find("formats"))
       for (const Value& name : formats->items) scene.output.formats.push_back(name.text);
     for (const ResultFormat& format : result_formats())
-      scene.output.motion |= format.draws && std::count(scene.output.formats.begin(), scene.output.formats.end(),
-                                                        format.name) > 0;
+      scene.output.motion |=
+          format.draws && std::count(scene.output.formats.begin(), scene.output.formats.end(), format.name) > 0;
   }
   if (const Value* w = sound("without"))
     for (const Value& name : w->items) scene.without.push_back(name.text);

@@ -33,7 +33,8 @@ void add_measure_rules(RuleTable& t) {
            "equal cycles with the same sum of range^exponent.",
            "\"value\""),
        may("from", not_negative(""),
-           "The part of the run that counts begins here [s] (statics: load factor); values there are interpolated between "
+           "The part of the run that counts begins here [s] (statics: load factor); values there are interpolated "
+           "between "
            "the ends of steps. Default: at the start."),
        may("to", not_negative(""), "It ends here. Default: at the end."),
        may("time", not_negative(""), "Of figure \"value\" [s] (statics: load factor). Default: at the end."),

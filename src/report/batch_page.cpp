@@ -173,9 +173,9 @@ std::string errors_text(std::vector<double> errors) {
   const std::size_t all = errors.size();
   std::erase_if(errors, [](double e) { return std::isnan(e); });
   std::sort(errors.begin(), errors.end());
-  std::string text = errors.empty() ? "no error is known" : "errors: median " +
-                                          io::rounded_text(errors[errors.size() / 2], 2) + ", largest " +
-                                          io::rounded_text(errors.back(), 2);
+  std::string text = errors.empty() ? "no error is known"
+                                    : "errors: median " + io::rounded_text(errors[errors.size() / 2], 2) +
+                                          ", largest " + io::rounded_text(errors.back(), 2);
   if (!errors.empty() && errors.size() < all)
     text += "; " + std::to_string(all - errors.size()) + " of " + std::to_string(all) + " are not known";
   return text;
@@ -210,13 +210,12 @@ std::string histogram(const Measured& m, const std::vector<double>& errors) {
     const auto edge = [&](std::size_t i) {
       return io::rounded_text(low + (high - low) * static_cast<double>(i) / static_cast<double>(bins), 5);
     };
-    inner +=
-        rectangle(plot_left + width * static_cast<double>(k) + 0.5, bottom - height, std::max(1.0, width - 1.0), height,
-                  "s0 solid",
-                  edge(k) + " to " + edge(k + 1) + ": " + std::to_string(counts[k]) + " cases" +
-                      (least[k] < largest[k] ? ", by their errors " + std::to_string(least[k]) + " to " +
-                                                   std::to_string(largest[k])
-                                             : ""));
+    inner += rectangle(plot_left + width * static_cast<double>(k) + 0.5, bottom - height, std::max(1.0, width - 1.0),
+                       height, "s0 solid",
+                       edge(k) + " to " + edge(k + 1) + ": " + std::to_string(counts[k]) + " cases" +
+                           (least[k] < largest[k]
+                                ? ", by their errors " + std::to_string(least[k]) + " to " + std::to_string(largest[k])
+                                : ""));
     if (least[k] == largest[k]) continue;
     const auto to_y = [&](std::size_t n) { return bottom - (bottom - top) * static_cast<double>(n) / most; };
     const double middle = plot_left + width * (static_cast<double>(k) + 0.5);

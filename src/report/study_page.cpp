@@ -245,7 +245,8 @@ class StudyPage {
 
   /// What runs of h and 2 h tell of the error of the first, and what their extrapolation leaves.
   void pairs(std::size_t g) {
-    Table table{{"runs", "quantity", "error", "told over true", "error extrapolated", "time [s]", "time of both [s]"}, {}};
+    Table table{{"runs", "quantity", "error", "told over true", "error extrapolated", "time [s]", "time of both [s]"},
+                {}};
     for (std::size_t k = 0; k < r_.runs.size(); ++k) {
       const SweepRun& run = r_.runs[k];
       if (run.grid != g || !run.pair) continue;
@@ -264,8 +265,9 @@ class StudyPage {
     }
     if (table.rows.empty()) return;
     page_.subsection("Pairs of runs with steps h and 2 h");
-    page_.paragraph("Told over true: the error of the run with h as the difference of both tells it, over the error "
-                    "against the reference.");
+    page_.paragraph(
+        "Told over true: the error of the run with h as the difference of both tells it, over the error "
+        "against the reference.");
     page_.table(table);
   }
 

@@ -68,8 +68,8 @@ void doubt_worst(const records::MeasuredErrors& errors, ErrorPart ErrorOf::*part
       count > 1 ? " (and " + std::to_string(count - 1) + " more columns by more than " + percent(bound) + ")" : "";
   if (is_known)
     doubts.push_back({"error", "'" + worst->name + "' has an error " + words.of + " of up to " + two_digits(p.largest) +
-                                   share + others + ", measured by twins; " +
-                                   (p.cause.empty() ? "" : p.cause + "; ") + words.remedy});
+                                   share + others + ", measured by twins; " + (p.cause.empty() ? "" : p.cause + "; ") +
+                                   words.remedy});
   else
     doubts.push_back({"error", "the error " + std::string(words.of) + " of '" + worst->name +
                                    "' is not resolved: it differs from its twin by up to " + two_digits(p.largest) +

@@ -270,7 +270,8 @@ class RunWithItsTwins {
 
   bool decides(const scene::Scene& wanted, const std::string& runs) {
     const records::MeasuredErrors errors = measure_errors({wanted, summary_, series_, relay_.rows, runs_, {}, size_});
-    undecided_ = "runs in " + runs + " differ by up to " + io::rounded_text(100.0 * difference_from_twins(errors, summary_), 2) +
+    undecided_ = "runs in " + runs + " differ by up to " +
+                 io::rounded_text(100.0 * difference_from_twins(errors, summary_), 2) +
                  " % of a range, and not as errors of second order do";
     return check_estimate(errors, runs, summary_);
   }

@@ -185,15 +185,16 @@ void check_window(ProblemList& list, std::size_t i, const Measure& m) {
   const double end = is_static ? 1.0 : analysis.end_time, from = m.from.value_or(0.0), to = m.to.value_or(end);
   const char* const key = m.from ? "from" : "to";
   if (m.is_of_measures)
-    list.add("measures", i, key, text_of(m.from ? from : to), "a formula of other measures is taken from no part of the run",
-             "give it to the measures in \"of\"");
+    list.add("measures", i, key, text_of(m.from ? from : to),
+             "a formula of other measures is taken from no part of the run", "give it to the measures in \"of\"");
   else if (analysis.arc_length)
-    list.add("measures", i, key, text_of(m.from ? from : to), "along a path by arc length a load factor can come twice");
+    list.add("measures", i, key, text_of(m.from ? from : to),
+             "along a path by arc length a load factor can come twice");
   else if (to > end)
     list.add("measures", i, "to", text_of(to), "the run ends before, at " + text_of(end));
   else if (!(from < to))
-    list.add("measures", i, key, text_of(m.from ? from : to), "the part of the run from " + text_of(from) + " to " +
-             text_of(to) + " is empty");
+    list.add("measures", i, key, text_of(m.from ? from : to),
+             "the part of the run from " + text_of(from) + " to " + text_of(to) + " is empty");
 }
 
 void check_measure(ProblemList& list, std::size_t i) {

@@ -136,7 +136,10 @@ std::vector<SensorType> make_types() {
        {F::coordinate, F::effort_part},
        "Torque on the second along a coordinate of a joint, of all that acts along it or of one part of that; of a "
        "displacement the force in N."},
-      {SensorKind::section_force_extremes, "section_force_extremes", SensorOf::beam, SensorShows::force,
+      {SensorKind::section_force_extremes,
+       "section_force_extremes",
+       SensorOf::beam,
+       SensorShows::force,
        in("N", {"least", "largest"}) + in("", {"least_at", "largest_at"}),
        {F::resultant},
        "Least and largest value of a section resultant along a beam, and their stations; of a moment in N m."},

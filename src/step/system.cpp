@@ -113,9 +113,11 @@ solve::VisitWork System::in_visits() {
 void System::make_least(State& state) {
   if (!linear_.has_dependent_rows()) return;
   least_.assign(work_.x.size(), 0.0);
-  for (const UnknownPlaces::Multiplier& at : places_.multipliers()) least_[at.unknown] = state.multipliers[at.multiplier];
+  for (const UnknownPlaces::Multiplier& at : places_.multipliers())
+    least_[at.unknown] = state.multipliers[at.multiplier];
   linear_.make_least(least_.data());
-  for (const UnknownPlaces::Multiplier& at : places_.multipliers()) state.multipliers[at.multiplier] = least_[at.unknown];
+  for (const UnknownPlaces::Multiplier& at : places_.multipliers())
+    state.multipliers[at.multiplier] = least_[at.unknown];
 }
 
 std::optional<Trouble> System::evaluate(const State& state, const elements::Slopes& slopes, bool tangent) {

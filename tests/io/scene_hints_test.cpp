@@ -111,7 +111,8 @@ TEST(SceneHints, an_inner_node_of_a_mesh_that_is_chosen_is_told_with_its_place) 
            mesh + R"(}], "joints": [{"name": "j", "kind": "fixed", "first": "ground", "second": "a"}],
       "loads": [{"at": "b.4", "force": [0, 0, 1]}], "analysis": {"kind": "static"}})";
   };
-  const SceneFile chosen = read_scene_text(scene(""), "beam"), given = read_scene_text(scene(R"(, "elements": 8)"), "beam");
+  const SceneFile chosen = read_scene_text(scene(""), "beam"),
+                  given = read_scene_text(scene(R"(, "elements": 8)"), "beam");
   EXPECT_TRUE(says(chosen.warnings, {"/loads/0/at", "b.4", "0.333", "elements"})) << texts(chosen.warnings);
   EXPECT_FALSE(says(given.warnings, {"b.4"})) << texts(given.warnings);
 }

@@ -90,8 +90,12 @@ std::vector<Case> cases() {
 const char* const cardan_shafts = R"(
     {"parameters": {"n": 2, "w": 12, "b": {"expression": "17*pi/180"}, "g": {"expression": "34*pi/180"}, "L": 0.3,
     "brake": 6.5}, "bodies": [{"name": "input", "mass": 2, "inertia": [0.01, 0.02, 0.02], "position": [-0.1, 0, 0]},
-    {"name": "output", "mass": 2, "inertia": [0.01, 0.02, 0.02], "position": [{"expression": "L*cos(b)+0.1*cos(g)"},
-    0, {"expression": "L*sin(b)+0.1*sin(g)"}], "rotation": {"axis": [0, -1, 0], "angle": {"expression": "g"}}}],
+    {"name": "output", "mass": 2, "inertia": [0.01, 0.02, 0.02], "position": [{"expression": "L*cos(b)+0.1*cos(g)"
+},
+    0, {"expression": "L*sin(b)+0.1*sin(g)"}], "rotation": {
+  "axis" : [ 0, -1, 0 ], "angle" : { "expression" : "g" }
+}
+}],
     "joints": [{"name": "bearing 1", "kind": "revolute", "first": "ground", "second": "input", "position": [-0.1, 0,
     0], "axis": [1, 0, 0], "drives": [{"law": {"expression": "w"}, "rate": true}]}, {"name": "bearing 2",
     "kind": "revolute", "first": "ground", "second": "output", "axis": [{"expression": "cos(g)"}, 0,
@@ -110,8 +114,10 @@ const char* const cardan_shafts = R"(
     {"expression": "L*sin(b)"}], "axis": [0, 1, 0], "second_axis": [{"expression": "-sin(g)"}, 0,
     {"expression": "cos(g)"}]}]}], "sensors": [{"name": "torque", "kind": "joint_effort", "joint": "bearing 1",
     "of": "drive"}, {"name": "r1", "kind": "joint_reaction", "joint": "slide 1", "axes": "body"}, {"name": "r2",
-    "kind": "joint_reaction", "joint": "slide 2", "axes": "body"}], "analysis": {"kind": "dynamic", "end_time": 4,
-    "step_size": 0.002}})";
+    "kind": "joint_reaction", "joint": "slide 2", "axes": "body"}], "analysis": {
+  "kind" : "dynamic", "end_time" : 4, "step_size" : 0.002
+}
+})";
 
 // What no equation sees grew by e every radian. The closed form is that of two Hooke's joints in phase: the shafts
 // between turn at w3 = w cos b / (1 - sin^2 b cos^2 wt), and each takes J w3 w3' / w of the drive's torque.

@@ -108,7 +108,8 @@ TEST(SectionForces, have_their_extremes_where_closed_forms_have_them) {
         "beams": [{"name": "b", "section": "s", "start": "a", "end": "z", )" +
                              mesh.text() + R"(}],
         "joints": [{"name": "pin", "kind": "revolute", "first": "ground", "second": "a", "axis": [0, 1, 0]}],
-        "motions": [{"at": "z", "z": 0}], "loads": [)" + load + R"(],
+        "motions": [{"at": "z", "z": 0}], "loads": [)" +
+                             load + R"(],
         "sensors": [{"name": "M", "kind": "section_force_extremes", "beam": "b", "component": "M2"},
                     {"name": "Q", "kind": "section_force_extremes", "beam": "b", "component": "Q3"}],
         "analysis": {"kind": "static", "tolerance": 1e-11}})"));

@@ -24,10 +24,10 @@ struct ErrorPart {
   /// Magnitude of the error. Where it is not resolved: of the difference between the run and its twin, which is no bound.
   /// Where it is round-off: what tolerance and round-off leave open.
   double largest = 0.0, root_mean_square = 0.0;
-  double spread = 0.0;  ///< largest difference between a member and the next finer one
+  double spread = 0.0;     ///< largest difference between a member and the next finer one
   bool has_finer = false;  ///< a member is finer than the run
-  double at_end = 0.0;  ///< limit minus value, at the end; 0 unless resolved or unexamined
-  double when = 0.0;    ///< time of the largest [s], or load factor
+  double at_end = 0.0;     ///< limit minus value, at the end; 0 unless resolved or unexamined
+  double when = 0.0;       ///< time of the largest [s], or load factor
   double theoretical_order = 0.0;
   /// log2 of the ratio of the differences of members, of their largest magnitudes and of their root mean squares; NaN:
   /// not measured.

@@ -297,9 +297,9 @@ enum class SensorKind : std::uint8_t {
 struct Sensor {
   std::string name;
   SensorKind kind = SensorKind::position;
-  Attachment at;         ///< node or body with offset (position, rotation, velocity, acceleration)
-  std::string beam;      ///< section sensors, or a point on a beam's axis
-  double station = 0.0;  ///< fraction of the beam's length, 0 to 1
+  Attachment at;          ///< node or body with offset (position, rotation, velocity, acceleration)
+  std::string beam;       ///< section sensors, or a point on a beam's axis
+  double station = 0.0;   ///< fraction of the beam's length, 0 to 1
   std::string component;  ///< section_force_extremes: which section resultant
   std::string joint;
   std::string coordinate;  ///< joint_rate, joint_effort: "angle" or "displacement"; empty: the only one the joint has
@@ -530,12 +530,12 @@ struct Measure {
   std::optional<double> from, to;  ///< part of the run that counts; none: its start, its end
   std::optional<double> time;      ///< of `value`; none: at the end
   std::optional<double> level;     ///< of `period`; none: 0
-  double percent = 50.0;         ///< of `percentile`
-  double band = 0.0;             ///< of `settling_time`
-  std::optional<double> target;  ///< of `settling_time`; none: the value at the end
-  double range = 0.0;            ///< of `cycles`
-  double exponent = 10.0;        ///< of `equivalent_range`: m, of the S-N line
-  std::optional<double> cycles;  ///< of `equivalent_range`; none: one a second
+  double percent = 50.0;           ///< of `percentile`
+  double band = 0.0;               ///< of `settling_time`
+  std::optional<double> target;    ///< of `settling_time`; none: the value at the end
+  double range = 0.0;              ///< of `cycles`
+  double exponent = 10.0;          ///< of `equivalent_range`: m, of the S-N line
+  std::optional<double> cycles;    ///< of `equivalent_range`; none: one a second
   /// Expected value of the measure. Only value, tolerances and source are used; the rest is given by the measure.
   std::optional<Expected> expected;
 };

@@ -19,6 +19,7 @@
 #include "bough/motion/quaternion.hpp"
 #include "bough/motion/types.hpp"
 #include "bough/scene/outlines.hpp"
+#include "gltf_arrays.hpp"
 #include "result_format.hpp"
 
 namespace bough::io {
@@ -51,83 +52,6 @@ struct GltfColour {
 constexpr GltfColour colours[] = {{GltfKind::body, "body", {0.79, 0.45, 0.16}},
                                   {GltfKind::beam, "beam", {0.20, 0.42, 0.65}},
                                   {GltfKind::link, "joint or spring", {0.35, 0.35, 0.35}}};
-
-/// The binary part of the file, and what its arrays are.
-class GltfArrays {
- public:
-  static constexpr int float32 = 5126, uint32 = 5125, uint16 = 5123;
-
-  /// components: 1, 3, 4, or 16 of a matrix. has_bounds: least and largest of each component are stated. Returns its
-  /// number.
-  template <class T>
-  long long add(const std::vector<T>& values, int type, std::size_t components, bool has_bounds, int target = 0) {
-    Array a{bytes.size(), values.size() * sizeof(T), values.size() / components, components, type, target, {}, {}};
-    for (std::size_t c = 0; has_bounds && c < components; ++c) {
-      auto least = static_cast<double>(values[c]), most = least;
-      for (std::size_t k = c; k < values.size(); k += components) {
-        least = std::min(least, static_cast<double>(values[k]));
-        most = std::max(most, static_cast<double>(values[k]));
-      }
-      a.least.push_back(least);
-      a.most.push_back(most);
-    }
-    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-    bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
-    arrays_.push_back(std::move(a));
-    return static_cast<long long>(arrays_.size()) - 1;
-  }
-
-  void write(JsonText& json) const {
-    json.key("buffers");
-    json.begin_array();
-    json.begin_object();
-    json.member("byteLength", static_cast<long long>(bytes.size()));
-    json.end_object();
-    json.end_array();
-    json.key("bufferViews");
-    json.begin_array();
-    for (const Array& a : arrays_) {
-      json.begin_object();
-      json.member("buffer", 0LL);
-      json.member("byteOffset", static_cast<long long>(a.begin));
-      json.member("byteLength", static_cast<long long>(a.length));
-      if (a.target != 0) json.member("target", static_cast<long long>(a.target));
-      json.end_object();
-    }
-    json.end_array();
-    json.key("accessors");
-    json.begin_array();
-    for (std::size_t k = 0; k < arrays_.size(); ++k) {
-      const Array& a = arrays_[k];
-      json.begin_object();
-      json.member("bufferView", static_cast<long long>(k));
-      json.member("componentType", static_cast<long long>(a.type));
-      json.member("count", static_cast<long long>(a.count));
-      json.member("type", a.components == 1 ? "SCALAR" : a.components == 3 ? "VEC3" : a.components == 4 ? "VEC4" : "MAT4");
-      write_bounds(json, "min", a.least);
-      write_bounds(json, "max", a.most);
-      json.end_object();
-    }
-    json.end_array();
-  }
-
-  std::string bytes;
-
- private:
-  struct Array {
-    std::size_t begin, length, count, components;
-    int type, target;
-    std::vector<double> least, most;
-  };
-  static void write_bounds(JsonText& json, const char* name, const std::vector<double>& values) {
-    if (values.empty()) return;
-    json.key(name);
-    json.begin_array();
-    for (const double v : values) json.value(v);
-    json.end_array();
-  }
-  std::vector<Array> arrays_;
-};
 
 motion::Mat3<double> matrix_of(const double* axes) {
   motion::Mat3<double> R;
@@ -200,8 +124,12 @@ class Gltf final : public ResultWriter {
       if (frame.curves[k].points.size() > std::numeric_limits<std::uint16_t>::max())
         throw std::runtime_error("motion.glb cannot hold beam '" + frame.curves[k].name +
                                  "': glTF has at most 65535 points of a skin; leave \"gltf\" out of /output/formats");
-      GltfPart part{frame.curves[k].name, GltfKind::beam, static_cast<std::uint32_t>(frame.curves[k].points.size()),
-                    {},                   {},             {},
+      GltfPart part{frame.curves[k].name,
+                    GltfKind::beam,
+                    static_cast<std::uint32_t>(frame.curves[k].points.size()),
+                    {},
+                    {},
+                    {},
                     {}};
       const int outline = k < parts.curves.size() ? parts.curves[k].outline : -1;
       if (outline >= 0)
@@ -286,8 +214,8 @@ class Gltf final : public ResultWriter {
     motion::Mat3<double> R = motion::Mat3<double>::identity();
     if (length > 0.0) {
       const motion::Vec3<double> x = (1.0 / length) * d;
-      motion::Vec3<double> y = std::abs(x[1]) < 0.9 ? motion::Vec3<double>{{0.0, 1.0, 0.0}}
-                                                    : motion::Vec3<double>{{0.0, 0.0, 1.0}};
+      motion::Vec3<double> y =
+          std::abs(x[1]) < 0.9 ? motion::Vec3<double>{{0.0, 1.0, 0.0}} : motion::Vec3<double>{{0.0, 0.0, 1.0}};
       if (const auto before = rotation_before()) {
         const motion::Mat3<double> Q = motion::rotation_of(motion::normalise(*before));
         const motion::Vec3<double> second{{Q(0, 1), Q(1, 1), Q(2, 1)}};
@@ -367,17 +295,9 @@ class Gltf final : public ResultWriter {
   double size_ = 0.0;  ///< of the structure at the start
 };
 
-void write_numbers(JsonText& json, const char* name, std::initializer_list<double> numbers) {
-  json.key(name);
-  json.begin_array();
-  for (const double v : numbers) json.value(v);
-  json.end_array();
-}
-
 void Gltf::write_meshes(JsonText& json, GltfArrays& arrays) const {
   constexpr int of_points = 34962, of_indices = 34963;
-  json.key("meshes");
-  json.begin_array();
+  begin_list(json, "meshes");
   std::size_t node = 0;
   for (const GltfPart& part : parts_) {
     if (is_drawn(part, node)) {
@@ -399,11 +319,9 @@ void Gltf::write_meshes(JsonText& json, GltfArrays& arrays) const {
           arrays.add(has_surface ? part.triangles : part.lines, GltfArrays::uint32, 1, false, of_indices);
       json.begin_object();
       json.member("name", std::string_view(part.name));
-      json.key("primitives");
-      json.begin_array();
+      begin_list(json, "primitives");
       json.begin_object();
-      json.key("attributes");
-      json.begin_object();
+      begin_member(json, "attributes");
       json.member("POSITION", place);
       if (!joints.empty()) {
         json.member("JOINTS_0", arrays.add(joints, GltfArrays::uint16, 4, false, of_points));
@@ -426,21 +344,16 @@ void Gltf::write_meshes(JsonText& json, GltfArrays& arrays) const {
 void Gltf::write_nodes(JsonText& json) const {
   const auto count = static_cast<long long>(num_nodes());
   const double half = std::sqrt(0.5);
-  json.key("nodes");
-  json.begin_array();
+  begin_list(json, "nodes");
   json.begin_object();
   json.member("name", "scene, z upwards");
   write_numbers(json, "rotation", {-half, 0.0, 0.0, half});
   if (origin_ != std::array<double, 3>{}) {
-    json.key("extras");
-    json.begin_object();
-    write_numbers(json, "origin", {origin_[0], origin_[1], origin_[2]});
+    begin_member(json, "extras");
+    write_numbers(json, "origin", origin_);
     json.end_object();
   }
-  json.key("children");
-  json.begin_array();
-  for (long long k = 1; k <= count; ++k) json.value(k);
-  json.end_array();
+  write_range(json, "children", 1, count);
   json.end_object();
   std::size_t node = 0;
   long long mesh = 0;
@@ -470,11 +383,9 @@ void Gltf::write_nodes(JsonText& json) const {
     json.end_object();
   }
   json.end_array();
-  json.key("scenes");
-  json.begin_array();
+  begin_list(json, "scenes");
   json.begin_object();
-  json.key("nodes");
-  json.begin_array();
+  begin_list(json, "nodes");
   json.value(0LL);
   for (long long k = 0; k < skin; ++k) json.value(count + 1 + k);
   json.end_array();
@@ -484,12 +395,10 @@ void Gltf::write_nodes(JsonText& json) const {
 }
 
 void Gltf::write_skins(JsonText& json, GltfArrays& arrays) const {
-  const bool has_beams = std::any_of(parts_.begin(), parts_.end(), [](const GltfPart& p) {
-    return p.kind == GltfKind::beam && !p.points.empty();
-  });
+  const bool has_beams = std::any_of(parts_.begin(), parts_.end(),
+                                     [](const GltfPart& p) { return p.kind == GltfKind::beam && !p.points.empty(); });
   if (!has_beams) return;  // an empty list is not allowed
-  json.key("skins");
-  json.begin_array();
+  begin_list(json, "skins");
   std::size_t node = 0;
   for (const GltfPart& part : parts_) {
     if (part.kind == GltfKind::beam && is_drawn(part, node)) {
@@ -500,10 +409,7 @@ void Gltf::write_skins(JsonText& json, GltfArrays& arrays) const {
       }
       json.begin_object();
       json.member("inverseBindMatrices", arrays.add(inverse, GltfArrays::float32, 16, false));
-      json.key("joints");
-      json.begin_array();
-      for (std::uint32_t k = 0; k < part.nodes; ++k) json.value(static_cast<long long>(node + k + 1));
-      json.end_array();
+      write_range(json, "joints", static_cast<long long>(node) + 1, part.nodes);
       json.end_object();
     }
     node += part.nodes;
@@ -546,12 +452,10 @@ void Gltf::write_animation(JsonText& json, GltfArrays& arrays) const {
     node += part.nodes;
   }
   if (channels.empty()) return;
-  json.key("animations");
-  json.begin_array();
+  begin_list(json, "animations");
   json.begin_object();
   json.member("name", "motion");
-  json.key("samplers");
-  json.begin_array();
+  begin_list(json, "samplers");
   for (const Channel& c : channels) {
     json.begin_object();
     json.member("input", input);
@@ -560,13 +464,11 @@ void Gltf::write_animation(JsonText& json, GltfArrays& arrays) const {
     json.end_object();
   }
   json.end_array();
-  json.key("channels");
-  json.begin_array();
+  begin_list(json, "channels");
   for (std::size_t k = 0; k < channels.size(); ++k) {
     json.begin_object();
     json.member("sampler", static_cast<long long>(k));
-    json.key("target");
-    json.begin_object();
+    begin_member(json, "target");
     json.member("node", static_cast<long long>(channels[k].node) + 1);
     json.member("path", channels[k].path);
     json.end_object();
@@ -581,22 +483,18 @@ std::string Gltf::file_text(const records::Summary& summary) const {
   GltfArrays arrays;
   JsonText json;
   json.begin_object();
-  json.key("asset");
-  json.begin_object();
+  begin_member(json, "asset");
   json.member("version", "2.0");
   json.member("generator", "bough");
   json.end_object();
-  json.key("extras");
-  json.begin_object();
+  begin_member(json, "extras");
   json.member("scene", std::string_view(summary.scene));
   json.end_object();
-  json.key("materials");
-  json.begin_array();
+  begin_list(json, "materials");
   for (const GltfColour& colour : colours) {
     json.begin_object();
     json.member("name", colour.name);
-    json.key("pbrMetallicRoughness");
-    json.begin_object();
+    begin_member(json, "pbrMetallicRoughness");
     write_numbers(json, "baseColorFactor", {colour.rgb[0], colour.rgb[1], colour.rgb[2], 1.0});
     json.member("metallicFactor", 0.1);
     json.member("roughnessFactor", 0.7);
@@ -632,7 +530,10 @@ std::string Gltf::file_text(const records::Summary& summary) const {
 }  // namespace
 
 ResultFormat gltf() {
-  return {"gltf", {"motion.glb"}, make_writer<Gltf>, "the moving structure as glTF, for viewers, slides and web pages",
+  return {"gltf",
+          {"motion.glb"},
+          make_writer<Gltf>,
+          "the moving structure as glTF, for viewers, slides and web pages",
           true};
 }
 

@@ -3,6 +3,8 @@
 ///   linear_model_A.mtx ...    matrices of the descriptor form, Matrix Market
 ///   linear_model.npz          arrays of NumPy: A, B, C, D, T of the minimal form, and E_row, E_column, E_value, E_shape
 ///                             ... of the descriptor form
+#include "bough/records/linear_model.hpp"
+
 #include <zlib.h>
 
 #include <array>
@@ -10,7 +12,6 @@
 
 #include "bough/io/json_text.hpp"
 #include "bough/io/matrix_market.hpp"
-#include "bough/records/linear_model.hpp"
 #include "result_format.hpp"
 
 namespace bough::io {

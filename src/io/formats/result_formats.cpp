@@ -1,12 +1,11 @@
-#include "result_format.hpp"
-
 #include "bough/io/digest.hpp"
+#include "result_format.hpp"
 
 namespace bough::io {
 
 const std::vector<ResultFormat>& result_formats() {
   static const std::vector<ResultFormat> formats = {
-      history_csv(), history_npy(), columns_json(), motion_bin(), states_bin(),
+      history_csv(), history_npy(),       columns_json(), motion_bin(),   states_bin(),
 #ifdef BOUGH_HAS_VTK
       paraview(),
 #endif
