@@ -233,7 +233,10 @@ class Search {
       summary.notes.push_back("the accuracy that was asked for is met by " + chosen() +
                               (text.empty() ? "" : ": " + text));
     else
-      summary.doubts.push_back({"accuracy", "the accuracy that was asked for is not met by " + chosen() + ": " + text});
+      summary.doubts.push_back({"accuracy", "the accuracy that was asked for is not met by " + chosen() + ": " + text +
+                                                (asked_.of.empty() ? "; \"of\" in /analysis/accuracy names those that "
+                                                                     "have to meet it, where not all do"
+                                                                   : "")});
   }
 
   const scene::Accuracy& asked_;
