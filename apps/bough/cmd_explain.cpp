@@ -98,8 +98,9 @@ int explain(const ExplainArguments& arguments) {
   const std::string word = in_small_letters(arguments.word).substr(0, longest);
   const std::vector<ManualEntry> entries = manual_entries();
   std::string text;
-  for (const std::string& part : {arguments.verb_help, schema_part(arguments.word), manual_part(word, entries)})
-    if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
+  if (!word.empty())
+    for (const std::string& part : {arguments.verb_help, schema_part(arguments.word), manual_part(word, entries)})
+      if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
   if (!text.empty()) {
     std::cout << text << std::flush;
     return std::cout.good() ? exit_done : exit_failed;

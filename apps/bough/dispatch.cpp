@@ -567,6 +567,11 @@ int explain_verb(const std::string& word) {
 }  // namespace
 
 int dispatch(int count, char** values) {
+  if (count == 2 && std::string_view(values[1]) == "help") {  // of no word: what there is
+    char all[] = "--help";
+    char* with_help[] = {values[0], all, nullptr};
+    return dispatch(2, with_help);
+  }
   const std::string first = count > 1 ? values[1] : "";
   const bool names_verb = is_verb(first);
   if (!names_verb && !first.empty() && first.front() != '-') return explain_verb(first);

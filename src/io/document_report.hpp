@@ -52,7 +52,7 @@ class Report {
     std::size_t other_copies = 0;
     std::size_t length = 0;  ///< of the value in the file [bytes]; 0: one token
     std::string word = {};   ///< the string at fault as it reads; empty: none
-    std::string meant = {};  ///< the key or word that it can only have been meant to be
+    std::string meant = {};  ///< JSON: what it can only have been meant to be
   };
 
   Placed& put(std::vector<Placed>& list, Problem p, int source, std::size_t offset);

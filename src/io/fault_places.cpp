@@ -20,13 +20,6 @@ std::string suggested_in(const std::string& hint) {
 
 std::string quoted_json(const std::string& text) { return nlohmann::json(text).dump(); }
 
-/// A string that reads as a number of JSON and nothing else.
-bool is_number_text(const std::string& text) {
-  constexpr std::string_view digits = "0123456789";
-  if (text.empty() || digits.find(text.back()) == std::string_view::npos) return false;
-  return (text.front() == '-' || digits.find(text.front()) != std::string_view::npos) && nlohmann::json::accept(text);
-}
-
 }  // namespace
 
 const DefinedNames& Report::names() {
@@ -46,15 +39,12 @@ void Report::suggest_fix(Placed& placed) {
   Problem& p = placed.problem;
   const std::string written(text_.substr(std::min(placed.offset, text_.size()), placed.length));
   if (!placed.meant.empty()) {
-    if (!written.empty() && written.front() == '"')
-      p.fix = Fix{placed.offset, placed.length, quoted_json(placed.meant)};
+    if (!written.empty() && written.front() == '"') p.fix = Fix{placed.offset, placed.length, placed.meant};
     return;
   }
   // The text of a copy can read differently from what is written: nothing is changed there.
   if (placed.word.empty() || written != quoted_json(placed.word)) return;
-  if (p.code == "not-a-number" && is_number_text(placed.word)) {
-    p.fix = Fix{placed.offset, placed.length, placed.word};
-  } else if (p.code == "unknown-name") {
+  if (p.code == "unknown-name") {
     constexpr std::size_t most_compared = 2'000'000;  // some tenths of a second
     const std::string near = suggested_in(p.hint);
     if (near.empty() || names_compared_ > most_compared) return;

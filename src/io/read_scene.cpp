@@ -18,8 +18,8 @@ namespace {
 bool breaks_outline(const std::vector<CheckFault>& faults) {
   return std::any_of(faults.begin(), faults.end(), [](const CheckFault& f) {
     const bool is_top = std::count(f.pointer.begin(), f.pointer.end(), '/') <= 1;
-    return is_top && f.rule.find("needs the key") == std::string::npos && f.pointer != "/schema_version" &&
-           f.pointer != "/gravity" && f.pointer != "/title";
+    return is_top && f.meant.empty() && f.rule.find("needs the key") == std::string::npos &&
+           f.pointer != "/schema_version" && f.pointer != "/gravity" && f.pointer != "/title";
   });
 }
 

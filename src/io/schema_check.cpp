@@ -29,6 +29,9 @@ std::string quoted_list(const std::vector<std::string>& words) {
   return r;
 }
 
+/// A key or word of the format, none of which has characters that JSON escapes.
+std::string json_word(const std::string& word) { return "\"" + word + "\""; }
+
 std::string with_article(JsonKind kind) {
   switch (kind) {
     case JsonKind::null:
@@ -97,20 +100,37 @@ class Checker {
     return is_known ? "did you mean \"" + meant + "\"?" : suggestion(word, kinds);
   }
 
-  /// A word that has to be one of some words.
-  bool fail_word(const JsonValue& value, const Path& path, const std::vector<std::string>& words, std::string hint) {
-    const std::size_t before = faults_.size();
-    fail(value, path, "has to be " + quoted_list(words), std::move(hint));
-    if (faults_.size() > before && !is_hopeless()) faults_.back().meant = only_word(value.text.str(), words);
-    return false;
+  /// Tells of a word that is none of those that it has to be. True if it can only have been meant to be one of them,
+  /// which it is from then on.
+  bool fail_word(JsonValue& value, const Path& path, const std::vector<std::string>& words, std::string hint) {
+    std::string meant =
+        is_hopeless() || value.is_made || !value.is(JsonKind::string) ? "" : only_word(value.text.str(), words);
+    fail(value, path, "has to be " + quoted_list(words), std::move(hint), false, meant.empty() ? "" : json_word(meant));
+    if (meant.empty()) return false;
+    value.text = std::move(meant);
+    return true;
   }
 
-  bool fail(const JsonValue& value, const Path& path, std::string rule, std::string hint = {}, bool at_key = false) {
+  /// Tells of a value of another type. True if it is a number in quotes, which it is no longer from then on.
+  bool fail_type(const Rule& rule, JsonValue& value, const Path& path) {
+    const bool is_number = json_kind(rule.form) == JsonKind::number && value.is(JsonKind::string) && !value.is_made &&
+                           is_number_text(value.text);
+    fail(value, path, "has to be " + wanted(rule) + ", not " + with_article(value.kind), type_hint(rule, value), false,
+         is_number ? value.text.str() : std::string());
+    if (!is_number) return false;
+    value.number = std::strtod(value.text.str().c_str(), nullptr);
+    value.kind = JsonKind::number;
+    return std::isfinite(value.number);
+  }
+
+  bool fail(const JsonValue& value, const Path& path, std::string rule, std::string hint = {}, bool at_key = false,
+            std::string meant = {}) {
     const std::uint32_t offset = at_key ? value.key_offset : value.offset;
     const std::uint32_t length = at_key ? 0 : value.length;  // 0: one token
     if (value.is_copy && is_of_another_copy(value.source, offset, rule)) return false;
     if (faults_.size() < most_faults)
-      faults_.push_back({value.source, offset, length, path.text(), std::move(rule), std::move(hint)});
+      faults_.push_back(
+          {value.source, offset, length, path.text(), std::move(rule), std::move(hint), 0, std::move(meant)});
     ++num_faults_;
     return false;
   }
@@ -132,9 +152,7 @@ class Checker {
     if (table_.has_formulas && json_kind(rule.form) == JsonKind::number && value.find_given("expression") != nullptr &&
         !evaluate(value, path))
       return false;
-    if (!value.is(json_kind(rule.form)))
-      return fail(value, path, "has to be " + wanted(rule) + ", not " + with_article(value.kind),
-                  type_hint(rule, value));
+    if (!value.is(json_kind(rule.form)) && !fail_type(rule, value, path)) return false;
     switch (rule.form) {
       case Form::number:
       case Form::integer:
@@ -260,23 +278,23 @@ class Checker {
       if (field.presence == Presence::required && value.find(field.key) == nullptr) missing.emplace_back(field.key);
     for (std::size_t i = 0; i < value.items.size(); ++i) {
       const std::string& key = value.items.key(i);
-      const auto field =
-          std::find_if(rule.fields.begin(), rule.fields.end(), [&](const Field& f) { return f.key == key; });
+      const Field* field = field_of(rule, key);
       const Path at = path.member(key);
-      if (key == "comment" && field == rule.fields.end()) {
+      if (key == "comment" && field == nullptr) {
         if (!value.items[i].is(JsonKind::string)) sound = fail(value.items[i], at, "a comment has to be a string");
-      } else if (field != rule.fields.end()) {
+      } else if (field != nullptr) {
         sound = check(*field->rule, value.items[i], at) && sound;
       } else if (rule.others != nullptr) {
         sound = check(*rule.others, value.items[i], at) && sound;
       } else {
-        sound = false;
-        value.items[i].sound = false;
         if (meant.empty())  // once: for each of many unknown keys it would take quadratic time
           for (const Field& f : rule.fields)
             if (value.find(f.key) == nullptr) free_keys.emplace_back(f.key);
         meant.push_back(unknown_key(rule, value, i, at, free_keys));
         std::erase(missing, meant.back());
+        const Field* renamed = field_of(rule, value.items.key(i));  // nullptr: nobody knows what was meant
+        if (renamed == nullptr) value.items[i].sound = false;
+        sound = renamed != nullptr && check(*renamed->rule, value.items[i], path.member(renamed->key)) && sound;
       }
     }
     for (const std::string& key : missing) sound = fail(value, path, "needs the key \"" + key + "\"", about(rule, key));
@@ -286,8 +304,14 @@ class Checker {
     return sound;
   }
 
+  static const Field* field_of(const Rule& rule, const std::string& key) {
+    const auto at = std::find_if(rule.fields.begin(), rule.fields.end(), [&](const Field& f) { return f.key == key; });
+    return at == rule.fields.end() ? nullptr : &*at;
+  }
+
   /// Reports a key that is not known; returns the one that was probably meant, which is then not reported as missing.
-  std::string unknown_key(const Rule& rule, const JsonValue& value, std::size_t i, const Path& at,
+  /// One that can only have been meant is the name of the member from then on.
+  std::string unknown_key(const Rule& rule, JsonValue& value, std::size_t i, const Path& at,
                           const std::vector<std::string>& free_keys) {
     if (is_hopeless()) {  // the key is not shown; a search for similar keys would take quadratic time in total
       fail(value.items[i], at, "this key is not known here", {}, true);
@@ -298,10 +322,11 @@ class Checker {
     std::string near = scene::nearest_name(value.items.key(i), free_keys);
     if (near.empty()) near = scene::nearest_name(value.items.key(i), known);
     std::string hint = near.empty() ? "known keys: " + quoted_list(known) : "did you mean \"" + near + "\"?";
-    const std::size_t before = faults_.size();
-    fail(value.items[i], at, "this key is not known here", std::move(hint), true);
-    if (faults_.size() > before && value.find(near) == nullptr && only_word(value.items.key(i), known) == near)
-      faults_.back().meant = near;
+    const bool is_expanded_before = near == "repeat" || near == "parameters";  // of a misspelt one nothing was made
+    const bool is_sure = !near.empty() && !is_expanded_before && value.find_given(near) == nullptr &&
+                         only_word(value.items.key(i), known) == near;
+    fail(value.items[i], at, "this key is not known here", std::move(hint), true, is_sure ? json_word(near) : "");
+    if (is_sure) value.items.rename(i, near);
     return near;
   }
 
@@ -373,7 +398,8 @@ class Checker {
     }
     if (JsonValue* kind = value.find_given("kind"); kind != nullptr && !kinds.empty())
       return fail_word(*kind, path.member("kind"), kinds,
-                       kind->is(JsonKind::string) ? suggestion_of_kind(kind->text, kinds) : "");
+                       kind->is(JsonKind::string) ? suggestion_of_kind(kind->text, kinds) : "") &&
+             check_object_choice(options, value, path);
     if (const JsonValue* name = value.find_given("signal"); name != nullptr && name->is(JsonKind::string)) {
       if (path.text().rfind("/frames/", 0) == 0)
         return fail(value, path,

@@ -14,13 +14,13 @@
 namespace bough::io {
 namespace {
 
-using Visit = std::function<void(const std::string& word, SchemaEntry entry)>;
+using VisitWord = std::function<void(const std::string& word, SchemaEntry entry)>;
 
 /// Walks over a table of rules and tells each key and each value with its place. A named rule that stands in several
 /// places is walked once, under its name.
 class WordWalk {
  public:
-  WordWalk(const RuleTable& table, std::string format, const Visit& visit)
+  WordWalk(const RuleTable& table, std::string format, const VisitWord& visit)
       : table_(table), format_(std::move(format)), visit_(visit) {}
 
   void walk() {
@@ -140,11 +140,11 @@ class WordWalk {
 
   const RuleTable& table_;
   std::string format_;
-  const Visit& visit_;
+  const VisitWord& visit_;
   std::set<std::string> seen_;
 };
 
-void visit_schemas(const Visit& visit) {
+void visit_schemas(const VisitWord& visit) {
   WordWalk(scene_rules(), "scene", visit).walk();
   WordWalk(sweep_rules(), "sweep", visit).walk();
   WordWalk(study_rules(), "study", visit).walk();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "bough/scene/nearest_name.hpp"
 
@@ -73,6 +74,12 @@ std::string only_word(std::string_view word, std::span<const std::string> words)
   }
   const int most = edit * static_cast<int>(std::max(word.size(), found.size()) / 4);
   return least <= most && second >= least + 2 * edit && digits_of(word) == digits_of(found) ? found : std::string();
+}
+
+bool is_number_text(const std::string& text) {
+  constexpr std::string_view digits = "0123456789";
+  if (text.empty() || digits.find(text.back()) == std::string_view::npos) return false;
+  return (text.front() == '-' || digits.find(text.front()) != std::string_view::npos) && nlohmann::json::accept(text);
 }
 
 std::string only_name(std::string_view word, std::span<const std::string> names) {

@@ -12,6 +12,9 @@ namespace bough::io {
 /// letters.
 std::string only_word(std::string_view word, std::span<const std::string> words);
 
+/// A text that reads as a number of JSON and nothing else, as of a number in quotes.
+bool is_number_text(const std::string& text);
+
 /// Of the names of a file the only one of which a word is a slip: letters in another case, another of `_`, `-` and
 /// space, two neighbours exchanged, or one letter missing or doubled within. No digit, and neither the first nor the last
 /// letter, is added or left out: these tell names of things apart, and the thing that is named may be missing.

@@ -44,6 +44,8 @@ def explains():
         expect("--help" in run("explain", word)[1], f"explain {word} has no options")
     for word in ("step_size", "unknown-name"):
         expect(run("help", word) == run("explain", word), f"help {word} differs from explain {word}")
+    expect(run("help") == run("--help"), "help of no word")
+    expect(run("explain", "")[0] == 2, "explain of an empty word")
     status, told = run("explain", "stifness")
     expect(status == 2 and "'stiffness'" in told, "no near word", told)
     status, told = run("explain", "qqqqqqqq")

@@ -123,6 +123,32 @@ TEST(Messages, a_second_place_shows_what_one_needs_to_see) {
   EXPECT_EQ(key.second_about, "given first here");
 }
 
+TEST(Messages, what_is_sure_hides_no_other_fault) {
+  // A misspelt key, kind or number in quotes, and a name that nothing has, in one part and in one pass.
+  const struct {
+    const char *good, *bad;
+    std::vector<const char*> codes;
+  } cases[] = {
+      {"\"section\": \"bar\", \"start\": \"root\", \"end\": \"knee\", \"axis_2\": [0, 1, 0], \"elements\": 4",
+       "\"section\": \"bar\", \"start\": \"nobody\", \"end\": \"knee\", \"axis_2\": [0, 1, 0], \"elemnts\": \"4\"",
+       {"unknown-name", "unknown-key", "not-a-number"}},
+      {"\"kind\": \"prismatic\", \"first\": \"ground\", \"second\": \"cart\"",
+       "\"kind\": \"prismtic\", \"first\": \"ground\", \"second\": \"nobody\"",
+       {"unknown-word", "unknown-name"}},
+      {"\"analysis\": { \"kind\": \"dynamic\", \"end_time\": 1",
+       "\"anaylsis\": { \"kind\": \"dynamic\", \"end_time\": -1",
+       {"unknown-key", "out-of-range"}},
+      {"\"stiffness\": 10 }", "\"stiffness\": \"-10\" }", {"not-a-number", "out-of-range"}}};
+  for (const auto& c : cases) {
+    const std::string text = test::spoilt(c.good, c.bad);
+    ASSERT_FALSE(text.empty()) << c.good;
+    const SceneFile file = read_scene_text(text, "scene");
+    std::vector<std::string> codes;
+    for (const Problem& p : file.problems) codes.push_back(p.code);
+    EXPECT_EQ(codes, std::vector<std::string>(c.codes.begin(), c.codes.end())) << c.bad;
+  }
+}
+
 TEST(Fixes, what_is_sure_is_changed_and_nothing_else) {
   const struct {
     const char *good, *bad;

@@ -71,6 +71,7 @@ class JsonItems {
   JsonValue& back() { return (*this)[size() - 1]; }
   /// Of an object; empty in an array.
   const std::string& key(std::size_t i) const;
+  void rename(std::size_t i, std::string key) { keys()[i] = std::move(key); }
 
   /// Reserves room for exactly so many values; it doubles if more are added. The values of one block all have keys, or
   /// none has.

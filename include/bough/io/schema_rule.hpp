@@ -95,11 +95,12 @@ struct CheckFault {
   std::uint32_t offset = 0, length = 0;  ///< of the value at fault; an unknown key, or the object that misses one
   std::string pointer, rule, hint;
   std::size_t other_copies = 0;  ///< further copies of the same text with the same fault
-  std::string meant = {};        ///< the key or word that the one at fault can only have been meant to be
+  std::string meant = {};        ///< JSON: what the key or value at fault can only have been meant to be
 };
 
 /// Checks a document, fills in defaults (source_default), puts numbers in the place of formulas, clears
-/// `sound` of values at fault and of all that hold them.
+/// `sound` of values at fault and of all that hold them. Of what a key or value can only have been meant to be the
+/// fault is told, and the document is checked further, and read, as if it had been written, so that it hides no other.
 /// Appends the first hundreds of faults and returns how many more there are.
 std::size_t check_rules(const RuleTable& table, JsonValue& root, std::vector<CheckFault>& faults);
 /// The same for a value by one rule of the table; pointer: of the value.
