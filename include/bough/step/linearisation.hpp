@@ -35,9 +35,9 @@ class Linearisation {
   [[nodiscard]] std::optional<Trouble> take(const State& state);
   /// Copies the tangents that are present in the system as K. There are no C and M then.
   void take_tangents();
-  /// Puts  factor (K - K_other)  in place of C or M, between motions: entries of constraint rows are zero. `other` is of
-  /// the same system.
-  void take_difference(Part to, double factor, const Linearisation& other);
+  /// Adds  factor (K - K_other)  to C or M, between motions: entries of constraint rows stay zero. `other` is of the same
+  /// system.
+  void add_difference(Part to, double factor, const Linearisation& other);
   /// Puts (A + A^T) / 2 in place of a matrix.
   void take_symmetric_part(Part part);
   /// Puts (C - C^T) / 2 in place of C for elements that dissipate energy.
