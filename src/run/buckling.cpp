@@ -172,7 +172,7 @@ bool Buckling::begin() {
   if (const auto trouble = system_.set_time(0.0)) return fail(trouble->text);
   const step::StepReport start = step::equilibrate(system_, state_, options_, 0.0);
   if (!start.converged) return fail("no equilibrium without loads: " + start.cause);
-  record(0, false);
+  record(0, true);  // pictures that follow are those of shapes
   return true;
 }
 
@@ -272,7 +272,6 @@ bool Buckling::find_next(std::vector<Found>& found, bool& is_last) {
 
 bool Buckling::take_step() {
   if (!may_try(way_)) return false;
-  const double from = state_.time;
   std::vector<Found> found;
   bool is_last = false;
   if (!find_next(found, is_last)) return false;
@@ -285,8 +284,6 @@ bool Buckling::take_step() {
     note("no " + std::string(found_.empty() ? "" : "further ") + "critical load factor up to " +
          io::rounded_text(scene_.analysis.buckling.largest_factor, 6) + " was found");
   is_done_ = is_last || found_.size() >= static_cast<std::size_t>(scene_.analysis.buckling.count);
-  last_step_ = state_.time - from;
-  record(0, is_done_);
   return true;
 }
 

@@ -340,7 +340,7 @@ solve::FactorStatus Linearisation::factor(const Combination& of_parts, solve::Sy
 }
 
 bool Linearisation::factor_soundly(const Combination& of_parts, solve::Symmetry symmetry) {
-  constexpr double allowed = 1e-6;
+  constexpr double allowed = 1e-9;
   if (!factor(of_parts, symmetry).ok()) return false;
   Vector known = vector_without_zeros(size()), forces(size()), found(size()), again(size());
   for (std::size_t i = 0; i < size(); ++i)

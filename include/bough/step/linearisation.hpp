@@ -90,7 +90,7 @@ class Linearisation {
   /// Factors a combination. symmetric: the symmetric parts of the matrices of elements are factored.
   [[nodiscard]] solve::FactorStatus factor(const Combination& of, solve::Symmetry symmetry);
   /// The same, with a trial: the solution under the forces of known motions and multipliers has these forces again, to
-  /// 1e-6. Where bodies have no stiffness of their own and rows of constraints depend on each other, it does not always,
+  /// 1e-9. Where bodies have no stiffness of their own and rows of constraints depend on each other, it does not always,
   /// although the factorization tells of no fault. False: it failed.
   [[nodiscard]] bool factor_soundly(const Combination& of, solve::Symmetry symmetry);
   /// x = A^-1 rhs, may be the same. False: it is not finite.
