@@ -80,6 +80,22 @@ class Run:
         return tables
 
     @property
+    def linear_model(self):
+        """The minimal form of a linear model, x' = A x + B u, y = C x + D u: {"A": array, "B", "C", "D", "T", "inputs": names,
+        "outputs": names, "states": names}; None where there is none, of which summary["tables"] tells why. The sparse form is
+        in linear_model.npz."""
+        file = self.directory / "linear_model.json"
+        told = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
+        if "minimal" not in told:
+            return None
+        arrays = numpy.load(self.directory / "linear_model.npz")
+        model = {name: arrays[name] for name in "ABCDT"}
+        model["states"] = [x["name"] for x in told["minimal"]["states"]]
+        for ports in ("inputs", "outputs"):
+            model[ports] = [x["name"] for x in told[ports]]
+        return model
+
+    @property
     def errors(self):
         """Measured errors of the columns, {column: {"extrapolated": ..., "error_in_time": ..., "error_of_mesh": ...}} with
         arrays of one value a row, limit minus value and NaN where it is not known; {} where none were measured. What is

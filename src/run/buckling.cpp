@@ -1,5 +1,6 @@
 /// Critical load factors of a loaded structure, each about the shape that it has under its load.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -22,8 +23,9 @@ using step::Linearisation;
 constexpr double settled_factor = 1e-9;  ///< relative change of a critical factor between two estimates
 constexpr double near_enough = 1e-3;     ///< distance of the state from it, over it, at the last estimate
 constexpr double one_load = 1e-5;        ///< relative distance of factors that are one
-constexpr double part_of_way = 0.9;      ///< of the way to the estimate that a load step takes
-constexpr int most_estimates = 60, most_halvings = 16;
+constexpr double small_part = 3e-3;  ///< of a factor, of a difference of tangents: round-off is left of smaller ones
+constexpr double part_of_way = 0.9;  ///< of the way to the estimate that a load step takes
+constexpr int most_estimates = 500, most_halvings = 16;
 
 /// Follows equilibria from the unloaded one. At a load factor f0 it solves  (K + (f - f0) K') x = 0,  with K' by a
 /// difference of tangents at two equilibria, takes a part of the way to the nearest factor f above, and repeats this
@@ -111,24 +113,30 @@ std::string Buckling::take_tangents(Linearisation& to, step::State& at) {
   return trouble ? trouble->text : "";
 }
 
-/// At the present state, with K' by the tangent at an equilibrium whose load factor differs by `difference`.
+/// At the present state, with K' by the tangents there and at two equilibria whose load factors differ by `difference`
+/// and by twice as much:  K' = (4 (K_1 - K) - (K_2 - K)) / (2 difference),  of second order.
 Buckling::Estimate Buckling::estimate(double difference) {
   Estimate result;
+  Linearisation here(system_);
+  std::array<Linearisation, 2> there{Linearisation(system_), Linearisation(system_)};
   step::State other = state_;
-  if (const auto why = go_to(other, state_.time + difference)) {
-    result.cause = *why;
-    return result;
+  for (std::size_t k = 0; k < there.size() && result.cause.empty(); ++k) {
+    if (const auto why = go_to(other, state_.time + (1.0 + static_cast<double>(k)) * difference))
+      result.cause = *why;
+    else
+      result.cause = take_tangents(there[k], other);
   }
-  Linearisation here(system_), there(system_);
-  result.cause = take_tangents(there, other);
   if (result.cause.empty()) result.cause = take_tangents(here, state_);
   if (!result.cause.empty()) return result;
-  here.take_difference(Linearisation::Part::mass, 1.0 / difference, there);  // -K'
+  here.add_difference(Linearisation::Part::mass, 2.0 / difference, there[0]);  // -K'
+  here.add_difference(Linearisation::Part::mass, -0.5 / difference, there[1]);
   result.loads = step::find_critical_loads(here, is_symmetric(), scene_.analysis.buckling.count + 2);
   result.cause = result.loads.cause;
-  const double least = last_critical_ > 0.0 ? (1.0 + one_load) * last_critical_ : 0.0;
+  // Those behind are known, or are none: K + d K' of a shape that bends is singular far away, too, where K'' counts. Only
+  // those come nearer as the load grows that are critical.
+  const double least = is_symmetric() ? 0.0 : -0.02 * (state_.time - last_critical_);
   for (const step::CriticalLoad& load : result.loads.loads)
-    if (state_.time + load.distance > least) result.next.push_back(load);
+    if (load.distance > least) result.next.push_back(load);
   std::stable_sort(result.next.begin(), result.next.end(),
                    [](const auto& a, const auto& b) { return a.distance < b.distance; });
   const auto is_other = [&](const step::CriticalLoad& load) {
@@ -164,7 +172,7 @@ bool Buckling::begin() {
   if (const auto trouble = system_.set_time(0.0)) return fail(trouble->text);
   const step::StepReport start = step::equilibrate(system_, state_, options_, 0.0);
   if (!start.converged) return fail("no equilibrium without loads: " + start.cause);
-  record(0, false);
+  record(0, true);  // pictures that follow are those of shapes
   return true;
 }
 
@@ -205,15 +213,15 @@ std::optional<std::string> Buckling::approach(double factor, double part) {
 }
 
 bool Buckling::find_next(std::vector<Found>& found, bool& is_last) {
-  double part = part_of_way, before = 0.0;
+  double part = part_of_way, before = 0.0, plain_before = 0.0, way_before = 0.0;
   if (!found_.empty())
     if (const std::string why = leave_behind(); !why.empty()) return fail(why);
   step::State previous = state_;
   const auto passed = static_cast<int>(found_.size());
   std::vector<Found> near;  // by the last estimate next to a critical factor: what is nearer may not be solved
   for (int k = 0; k < most_estimates; ++k) {
-    const double difference = -std::max(1e-2 * std::abs(way_ - state_.time), 1e-4 * way_);
-    const Estimate now = state_.time > 0.0 ? estimate(std::max(difference, -0.5 * state_.time)) : first_estimate();
+    const double difference = -std::max(1e-2 * std::abs(way_ - state_.time), small_part * way_);
+    const Estimate now = state_.time > 0.0 ? estimate(std::max(difference, -0.3 * state_.time)) : first_estimate();
     if (!now.cause.empty() && !near.empty()) {
       found = std::move(near);
       return true;
@@ -234,12 +242,18 @@ bool Buckling::find_next(std::vector<Found>& found, bool& is_last) {
       return true;
     }
     is_counted_ = is_counted_ && now.loads.unstable == passed;
-    const double factor = way_ = state_.time + now.next.front().distance;
+    // Estimates are off by the square of the way that was left, of which the last two tell how much.
+    const double way = now.next.front().distance, plain = state_.time + way;
+    const double share =
+        before > 0.0 && way < 0.5 * way_before ? way * way / (way_before * way_before - way * way) : 0.0;
+    const double factor = way_ = plain + share * (plain - plain_before);
     near.clear();
-    if (std::abs(factor - state_.time) <= near_enough * factor)
+    if (std::abs(way) <= near_enough * factor)
       for (const step::CriticalLoad& load : now.next)
-        near.push_back({state_.time + load.distance, std::abs(factor / before - 1.0), load,
+        near.push_back({factor + load.distance - way, std::abs(factor / before - 1.0), load,
                         step::unstable_mode_of(system_, state_, load.shape)});
+    plain_before = plain;
+    way_before = way;
     const bool is_settled = std::abs(factor - before) <= settled_factor * factor;
     before = factor;
     previous = state_;
@@ -258,7 +272,6 @@ bool Buckling::find_next(std::vector<Found>& found, bool& is_last) {
 
 bool Buckling::take_step() {
   if (!may_try(way_)) return false;
-  const double from = state_.time;
   std::vector<Found> found;
   bool is_last = false;
   if (!find_next(found, is_last)) return false;
@@ -271,8 +284,6 @@ bool Buckling::take_step() {
     note("no " + std::string(found_.empty() ? "" : "further ") + "critical load factor up to " +
          io::rounded_text(scene_.analysis.buckling.largest_factor, 6) + " was found");
   is_done_ = is_last || found_.size() >= static_cast<std::size_t>(scene_.analysis.buckling.count);
-  last_step_ = state_.time - from;
-  record(0, is_done_);
   return true;
 }
 

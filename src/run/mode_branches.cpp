@@ -100,7 +100,10 @@ void ModeBranches::keep(std::size_t count) {
   std::vector<Branch> kept;
   std::size_t vibrations = 0;
   for (const std::size_t b : order) {
-    if (vibrations >= count) break;
+    if (vibrations >= count) {
+      dropped_.push_back(std::move(branches_[b]));
+      continue;
+    }
     const bool vibrates =
         std::any_of(branches_[b].begin(), branches_[b].end(), [](const Point& p) { return p.eigenvalue.imag() > 0.0; });
     if (vibrates) ++vibrations;
@@ -119,11 +122,13 @@ std::string ModeBranches::doubt(const std::vector<double>& values) const {
       if (q.likeness >= much_alike) continue;
       // Of equal frequencies any combination of shapes is one, and only the plane of both has to be continued.
       const auto is_of_pair = [&](const Point& of) {
-        return std::any_of(branches_.begin(), branches_.end(), [&](const Branch& other) {
+        const auto has_equal = [&](const Branch& other) {
           return &other != &branches_[b] && std::any_of(other.begin(), other.end(), [&](const Point& r) {
             return r.at == of.at && std::abs(r.eigenvalue - of.eigenvalue) <= one_pair * std::abs(of.eigenvalue);
           });
-        });
+        };
+        return std::any_of(branches_.begin(), branches_.end(), has_equal) ||
+               std::any_of(dropped_.begin(), dropped_.end(), has_equal);
       };
       if (is_of_pair(p) || is_of_pair(q)) continue;
       if (++count <= 3)

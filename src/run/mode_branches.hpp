@@ -35,7 +35,7 @@ class ModeBranches {
   std::string doubt(const std::vector<double>& values) const;
 
  private:
-  std::vector<Branch> branches_;
+  std::vector<Branch> branches_, dropped_;
   std::vector<std::vector<std::complex<double>>> shapes_;  ///< of the last point of each branch
   std::size_t num_values_ = 0;
 };

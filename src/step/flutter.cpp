@@ -16,7 +16,8 @@ constexpr int most_vectors = 40;       ///< of the Krylov space
 constexpr double is_found = 1e-6;      ///< relative residual of an eigenvalue that counts
 constexpr double least_growth = 1e-3;  ///< relative to the frequency: below this it may be round-off of a double one
 constexpr double slowest = 1e-6;       ///< eigenvalues below this part of the largest are not looked at
-constexpr double beside_zero = 1e-12;  ///< shift where K alone is not factored soundly, over the largest K_ii / M_ii
+constexpr double beside_zero =
+    1e-9;  ///< least shift where K alone is not factored soundly, over the largest K_ii / M_ii
 
 /// The node that moves most in a vibration.
 int largest_node(const Linearisation& linear, const std::vector<std::complex<double>>& shape) {
@@ -33,9 +34,9 @@ std::optional<Flutter> find_flutter(System& system, const State& state) {
   if (linear.take(state)) return std::nullopt;
   // Bodies that joints alone hold have no stiffness of their own: K + s M has no pivots of zero.
   double shift = 0.0;
-  if (!linear.factor_soundly({}, solve::Symmetry::general)) {
-    shift = beside_zero * linear.fastest();
-    if (!(shift > 0.0) || !linear.factor_soundly({.mass = shift}, solve::Symmetry::general)) return std::nullopt;
+  for (double part = beside_zero; !linear.factor_soundly({.mass = shift}, solve::Symmetry::general); part *= 1e3) {
+    shift = part * linear.fastest();
+    if (!(shift > 0.0) || part > 1.0) return std::nullopt;
   }
   std::vector<double> forces(linear.size()), start(linear.size());
   Krylov space(

@@ -106,16 +106,16 @@ std::span<const double> Linearisation::matrix_of(Part part, int element) const {
   return {of(part).data() + begin, end - begin};
 }
 
-void Linearisation::take_difference(Part to, double factor, const Linearisation& other) {
+void Linearisation::add_difference(Part to, double factor, const Linearisation& other) {
   Vector& difference = parts_[static_cast<std::size_t>(to)];
-  difference.assign(parts_[0].size(), 0.0);
+  difference.resize(parts_[0].size(), 0.0);
   for (int e = 0; e < num_elements(); ++e) {
     const std::span<const std::int64_t> unknowns = unknowns_of(e);
     const std::size_t n = unknowns.size(), begin = at(matrix_begin_[at(e)]);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n && is_row_[at(unknowns[i])] == 0; ++j)
         if (const std::size_t k = begin + i * n + j; is_row_[at(unknowns[j])] == 0)
-          difference[k] = factor * (parts_[0][k] - other.parts_[0][k]);
+          difference[k] += factor * (parts_[0][k] - other.parts_[0][k]);
   }
 }
 
@@ -340,7 +340,7 @@ solve::FactorStatus Linearisation::factor(const Combination& of_parts, solve::Sy
 }
 
 bool Linearisation::factor_soundly(const Combination& of_parts, solve::Symmetry symmetry) {
-  constexpr double allowed = 1e-6;
+  constexpr double allowed = 1e-9;
   if (!factor(of_parts, symmetry).ok()) return false;
   Vector known = vector_without_zeros(size()), forces(size()), found(size()), again(size());
   for (std::size_t i = 0; i < size(); ++i)

@@ -18,6 +18,10 @@ except ImportError:
     print("no NumPy")
     sys.exit(77)
 
+os.environ["BOUGH"] = sys.argv[1]
+sys.path.insert(0, str(pathlib.Path(sys.argv[2]) / "apps/python"))
+import bough  # noqa: E402
+
 
 def market(path):
     """A matrix of the format Matrix Market, coordinate real general."""
@@ -56,6 +60,8 @@ with tempfile.TemporaryDirectory() as folder:
             1j * w * numpy.eye(len(arrays["A"])) - arrays["A"], arrays["B"]) + arrays["D"]
         of_descriptor = sparse["C"] @ numpy.linalg.solve(1j * w * sparse["E"] - sparse["A"], sparse["B"]) + sparse["D"]
         assert numpy.abs(of_minimal - of_descriptor).max() < 2e-6 * numpy.abs(of_descriptor).max(), w
+    read = bough.read(out).linear_model
+    assert (read["A"] == arrays["A"]).all() and read["inputs"] == ["target", "push"] and len(read["states"]) == len(read["A"])
     try:
         import scipy.io
         assert (scipy.io.mmread(out / "linear_model_A.mtx").toarray() == sparse["A"]).all()

@@ -9,6 +9,9 @@
 #include <functional>
 
 #include "bough/run/memory_run.hpp"
+#include "bough/schedule/serial.hpp"
+#include "bough/step/find_equilibrium.hpp"
+#include "bough/step/flutter.hpp"
 #include "bough/step/stability.hpp"
 #include "stability_scenes.hpp"
 
@@ -131,6 +134,51 @@ TEST(Stability, loads_that_follow_are_judged_by_the_sign_of_the_determinant) {
   ASSERT_TRUE(beck.ok()) << beck.summary.cause;
   EXPECT_EQ(doubt_of(beck.summary), nullptr);
   EXPECT_NE(beck.summary.stability->not_conservative.find("'press' follows rotations"), std::string::npos);
+}
+
+/// Windows of four bars that hang in a row, their first bar pushed by a load that follows it.
+scene::Scene windows(int count) {
+  const auto body = [](const std::string& name, double mass, double inertia, double x, double z) {
+    const std::string I = support::text(inertia);
+    return R"({"name": ")" + name + R"(", "mass": )" + support::text(mass) + R"(, "inertia": [)" + I + ", " + I + ", " +
+           I + R"(], "position": [)" + support::text(x) + ", 0, " + support::text(z) + "]}";
+  };
+  const auto hinge = [](const std::string& first, const std::string& second, double x, double z) {
+    return R"({"name": ")" + first + " to " + second + R"(", "kind": "revolute", "first": ")" + first +
+           R"(", "second": ")" + second + R"(", "position": [)" + support::text(x) + ", 0, " + support::text(z) +
+           R"(], "axis": [0, 1, 0]})";
+  };
+  std::string bodies = body("crank 0", 1.0, 0.1, 0.0, -0.5), joints = hinge("ground", "crank 0", 0.0, 0.0);
+  for (int k = 0; k < count; ++k) {
+    const std::string crank = "crank " + std::to_string(k), next = "crank " + std::to_string(k + 1),
+                      bar = "bar " + std::to_string(k);
+    bodies += ", " + body(next, 1.0, 0.1, 2.0 * k + 2.0, -0.5) + ", " + body(bar, 3.0, 1.0, 2.0 * k + 1.0, -1.0);
+    joints += ", " + hinge("ground", next, 2.0 * k + 2.0, 0.0) + ", " + hinge(crank, bar, 2.0 * k, -1.0) + ", " +
+              hinge(next, bar, 2.0 * k + 2.0, -1.0);
+  }
+  return support::scene_of(R"({"gravity": [0, 0, -9.81], "bodies": [)" + bodies + R"(], "joints": [)" + joints +
+                           R"(], "loads": [{"name": "push", "at": "bar 0", "axes": "body", "force": [0, 1, -5]}],
+                              "analysis": {"kind": "modes"}})");
+}
+
+/// Bodies have no stiffness of their own, and rows of loops in space depend on each other: the factor of the tangent tells
+/// of no fault and gives forces that are not those asked for.
+TEST(Stability, the_factor_of_bodies_that_joints_alone_hold_is_tried_before_it_is_read) {
+  for (const int count : {2, 3, 5, 8}) {
+    const scene::Scene scene = windows(count);
+    const plan::Plan plan = plan::make_plan(scene);
+    step::System system(plan, scene.solver, schedule::make_serial_walker());
+    step::State state = step::make_initial_state(plan);
+    ASSERT_TRUE(step::find_equilibrium(system, state, step::make_step_options(scene.analysis), 1e-3).found);
+    step::Linearisation linear(system);
+    ASSERT_FALSE(linear.take(state));
+    EXPECT_TRUE(linear.factor({}, solve::Symmetry::general).ok());
+    EXPECT_FALSE(linear.factor_soundly({}, solve::Symmetry::general));
+    EXPECT_TRUE(linear.factor_soundly({.mass = 1e-3 * linear.fastest()}, solve::Symmetry::general));
+    const std::optional<step::Flutter> flutter = step::find_flutter(system, state);
+    ASSERT_TRUE(flutter.has_value());
+    EXPECT_FALSE(flutter->is_there) << flutter->frequency << " rad/s, growing by " << flutter->growth;
+  }
 }
 
 TEST(Stability, joints_without_a_load_are_stable_and_rows_that_depend_are_not_counted) {

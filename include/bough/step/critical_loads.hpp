@@ -19,7 +19,7 @@ struct CriticalLoads {
   int unstable = -1;                ///< negative eigenvalues of K on the motions that constraints allow; -1: not known
 };
 
-/// `linear` holds the tangent as K and -K' as M (Linearisation::take_difference). Eigenvalues 1 / d of  [K G^T; G
+/// `linear` holds the tangent as K and -K' as M (Linearisation::add_difference). Eigenvalues 1 / d of  [K G^T; G
 /// 0]^-1 (-K')  by Arnoldi's method, real ones alone, so that under loads without a potential divergence is found and
 /// flutter is not. Further searches, beside those that were found and are locked, find equal ones. symmetric: K and K'
 /// are, and their symmetric parts are factored.

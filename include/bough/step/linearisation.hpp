@@ -35,9 +35,9 @@ class Linearisation {
   [[nodiscard]] std::optional<Trouble> take(const State& state);
   /// Copies the tangents that are present in the system as K. There are no C and M then.
   void take_tangents();
-  /// Puts  factor (K - K_other)  in place of C or M, between motions: entries of constraint rows are zero. `other` is of
-  /// the same system.
-  void take_difference(Part to, double factor, const Linearisation& other);
+  /// Adds  factor (K - K_other)  to C or M, between motions: entries of constraint rows stay zero. `other` is of the same
+  /// system.
+  void add_difference(Part to, double factor, const Linearisation& other);
   /// Puts (A + A^T) / 2 in place of a matrix.
   void take_symmetric_part(Part part);
   /// Puts (C - C^T) / 2 in place of C for elements that dissipate energy.
@@ -90,7 +90,7 @@ class Linearisation {
   /// Factors a combination. symmetric: the symmetric parts of the matrices of elements are factored.
   [[nodiscard]] solve::FactorStatus factor(const Combination& of, solve::Symmetry symmetry);
   /// The same, with a trial: the solution under the forces of known motions and multipliers has these forces again, to
-  /// 1e-6. Where bodies have no stiffness of their own and rows of constraints depend on each other, it does not always,
+  /// 1e-9. Where bodies have no stiffness of their own and rows of constraints depend on each other, it does not always,
   /// although the factorization tells of no fault. False: it failed.
   [[nodiscard]] bool factor_soundly(const Combination& of, solve::Symmetry symmetry);
   /// x = A^-1 rhs, may be the same. False: it is not finite.
