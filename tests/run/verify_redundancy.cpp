@@ -87,7 +87,7 @@ std::vector<Case> cases() {
 
 /// Two telescopic Cardan shafts side by side between a driven input and a braked output: one row depends on the others,
 /// and its null vector, a torque locked between the two shafts, turns with them.
-const char* const cardan_shafts = R"(
+const char* const cardan_shafts = R"-(
     {"parameters": {"n": 2, "w": 12, "b": {"expression": "17*pi/180"}, "g": {"expression": "34*pi/180"}, "L": 0.3,
     "brake": 6.5}, "bodies": [{"name": "input", "mass": 2, "inertia": [0.01, 0.02, 0.02], "position": [-0.1, 0, 0]},
     {"name": "output", "mass": 2, "inertia": [0.01, 0.02, 0.02], "position": [{"expression": "L*cos(b)+0.1*cos(g)"
@@ -117,7 +117,7 @@ const char* const cardan_shafts = R"(
     "kind": "joint_reaction", "joint": "slide 2", "axes": "body"}], "analysis": {
   "kind" : "dynamic", "end_time" : 4, "step_size" : 0.002
 }
-})";
+})-";
 
 // What no equation sees grew by e every radian. The closed form is that of two Hooke's joints in phase: the shafts
 // between turn at w3 = w cos b / (1 - sin^2 b cos^2 wt), and each takes J w3 w3' / w of the drive's torque.
