@@ -46,9 +46,9 @@ std::string schema_part(const std::string& word) {
   return text + more_text(entries.size());
 }
 
-/// Rows of tables and sections with just this word, and then where it stands in headings.
+/// Rows of tables and sections with just this word, in the order of the entries, and then where it stands in headings.
 std::string manual_part(const std::string& word, const std::vector<ManualEntry>& entries) {
-  std::string rows, sections, others;
+  std::string told, others;
   std::size_t num_rows = 0;
   const ManualEntry* last_row = nullptr;
   for (const ManualEntry& e : entries) {
@@ -56,18 +56,31 @@ std::string manual_part(const std::string& word, const std::vector<ManualEntry>&
     const std::string where = e.page + ", \"" + e.title + "\"";
     if (fits && e.is_row) {
       if (++num_rows > most_entries) continue;
-      if (last_row == nullptr || last_row->title != e.title || last_row->page != e.page) rows += where + "\n";
-      rows += e.text;
+      if (last_row == nullptr || last_row->title != e.title || last_row->page != e.page) told += where + "\n";
+      told += e.text;
       last_row = &e;
     } else if (fits && !e.text.empty()) {
-      sections += where + "\n" + e.text + "\n";
+      told += where + "\n" + e.text;
     } else if (title_holds(e, word)) {
       others += "  " + where + "\n";
     }
   }
-  std::string text = sections + rows + more_text(num_rows);
+  std::string text = told + more_text(num_rows);
   if (!others.empty()) text += "See also\n" + others;
   return text;
+}
+
+/// Sections in whose text a word stands that has no entry.
+std::string mentions_of(const std::string& word, const std::vector<ManualEntry>& entries) {
+  constexpr std::size_t least_letters = 4, most_mentions = 10;
+  std::string text;
+  std::size_t count = 0;
+  for (const ManualEntry& e : entries) {
+    if (word.size() < least_letters || e.is_row || in_small_letters(e.text).find(word) == std::string::npos) continue;
+    if (++count <= most_mentions) text += "  " + e.page + ", \"" + e.title + "\"\n";
+  }
+  if (count > most_mentions) text += "  and " + std::to_string(count - most_mentions) + " more\n";
+  return text.empty() ? text : "It has no entry of its own, and stands in\n" + text;
 }
 
 /// The nearest words, and those that hold the word.
@@ -101,6 +114,7 @@ int explain(const ExplainArguments& arguments) {
   if (!word.empty())
     for (const std::string& part : {arguments.verb_help, schema_part(arguments.word), manual_part(word, entries)})
       if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
+  if (text.empty()) text = mentions_of(word, entries);
   if (!text.empty()) {
     std::cout << text << std::flush;
     return std::cout.good() ? exit_done : exit_failed;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 
 #include "embedded_texts.hpp"
 
@@ -58,6 +59,15 @@ std::vector<std::string> words_of_cell(const std::string& cell) {
     if (!word.empty()) words.push_back(word);
   }
   return words;
+}
+
+/// Pages in the order in which a reader wants them.
+std::size_t rank_of(std::string_view path) {
+  constexpr std::string_view parts[] = {"guides/messages", "reference/words", "guides/",
+                                        "reference/",      "tutorials/",      "theory/"};
+  const auto* const at = std::find_if(std::begin(parts), std::end(parts),
+                                      [&](std::string_view part) { return path.find(part) != std::string_view::npos; });
+  return static_cast<std::size_t>(at - std::begin(parts));
 }
 
 /// Reads one page line by line.
@@ -139,7 +149,10 @@ bool title_holds(const ManualEntry& entry, const std::string& word) {
 
 std::vector<ManualEntry> manual_entries() {
   std::vector<ManualEntry> entries;
-  for (const EmbeddedText& page : manual_pages()) {
+  std::vector<EmbeddedText> pages = manual_pages();
+  std::stable_sort(pages.begin(), pages.end(),
+                   [](const EmbeddedText& a, const EmbeddedText& b) { return rank_of(a.path) < rank_of(b.path); });
+  for (const EmbeddedText& page : pages) {
     if (!page.path.ends_with(".md")) continue;
     PageReader reader(page, entries);
     std::string_view rest = page.text;

@@ -15,7 +15,7 @@ struct ManualEntry {
   bool is_row = false;
 };
 
-/// All entries, in the order of the manual.
+/// All entries: messages and words first, then guides, tutorials, theory and what is for builders.
 std::vector<ManualEntry> manual_entries();
 
 std::string in_small_letters(std::string_view text);

@@ -75,7 +75,7 @@ class WordWalk {
       std::string about(f.about);
       if (f.rule->form != Form::word && !own.empty() && own != about) about += (about.empty() ? "" : " ") + own;
       visit_(std::string(f.key), {format_, at, std::move(value), std::move(about)});
-      walk(*f.rule, at, std::string(f.about));
+      if (f.key != "kind" || rule.kinds.empty()) walk(*f.rule, at, std::string(f.about));
     }
   }
 

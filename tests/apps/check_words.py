@@ -46,6 +46,8 @@ def explains():
         expect(run("help", word) == run("explain", word), f"help {word} differs from explain {word}")
     expect(run("help") == run("--help"), "help of no word")
     expect(run("explain", "")[0] == 2, "explain of an empty word")
+    status, told = run("explain", "Lanczos")
+    expect(status == 0 and "stands in" in told and "modes.md" in told, "a word of the text alone", told)
     status, told = run("explain", "stifness")
     expect(status == 2 and "'stiffness'" in told, "no near word", told)
     status, told = run("explain", "qqqqqqqq")
