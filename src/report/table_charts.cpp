@@ -47,6 +47,26 @@ std::vector<Chart> over_frequency(const records::Table& table, const std::string
   return charts;
 }
 
+/// Removes curves of amplitudes that are round-off beside the largest of their chart, and their phases.
+void leave_out_round_off(std::vector<Chart>& amplitudes, std::vector<Chart>& phases) {
+  constexpr double round_off = 1e-9;
+  const auto largest_of = [](const ChartSeries& series) {
+    double most = 0.0;
+    for (const ChartPoint& p : series.points) most = std::max(most, p.y);
+    return most;
+  };
+  for (Chart& chart : amplitudes) {
+    double most = 0.0;
+    for (const ChartSeries& series : chart.series) most = std::max(most, largest_of(series));
+    std::erase_if(chart.series, [&](const ChartSeries& series) {
+      if (largest_of(series) > round_off * most) return false;
+      for (Chart& phase : phases)
+        std::erase_if(phase.series, [&](const ChartSeries& other) { return other.name == series.name; });
+      return true;
+    });
+  }
+}
+
 /// A curve a branch over the values, with the lines of excitations.
 Chart over_values(const records::Table& table, std::size_t quantity, bool with_lines) {
   Chart chart{with_unit(table.columns[quantity].name, table.columns[quantity].unit),
@@ -78,7 +98,9 @@ std::vector<Chart> charts_of(const records::Table& table) {
   if (table.rows.size() < 2) return charts;
   if (table.name == "response") {
     charts = over_frequency(table, " amplitude", "amplitude", Scale::log);
-    for (Chart& phase : over_frequency(table, " phase", "phase", Scale::linear)) charts.push_back(std::move(phase));
+    std::vector<Chart> phases = over_frequency(table, " phase", "phase", Scale::linear);
+    leave_out_round_off(charts, phases);
+    for (Chart& phase : phases) charts.push_back(std::move(phase));
   } else if (table.name == "spectra") {
     charts = over_frequency(table, "", "density", Scale::log);
   } else if (table.name == "campbell") {

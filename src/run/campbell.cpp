@@ -126,28 +126,50 @@ records::Table Campbell::table_of_branches() const {
   return table;
 }
 
-/// Where an imaginary part meets a multiple of the speed, and where a real part becomes positive.
+/// Where an imaginary part meets a multiple of the speed, and where a real part becomes positive. Two vibrations that meet
+/// and then flutter have eigenvalues that change as the root of the way from there; their mean and the square of their
+/// difference, which changes its sign, do not.
 records::Table Campbell::table_of_events() const {
   records::Table table{
       "critical",
-      "Values at which a vibration has the frequency of an excitation, or begins to grow: by the cubic "
-      "through the four nearest points of its branch.",
+      "Values at which a vibration has the frequency of an excitation, or two vibrations meet and begin "
+      "to flutter, by the cubic through the four nearest points; and values between which a vibration "
+      "begins to grow for other reasons, about their middle.",
       {{"event", "", true}, {"branch", "", true}, {"value", "", true}, {"frequency", "Hz", true}, {"what", "", true}},
       {}};
-  for (std::size_t b = 0; b < branches_.all().size(); ++b) {
-    const ModeBranches::Branch& branch = branches_.all()[b];
-    const auto add = [&](const std::string& event, auto&& quantity) {
-      for (const double value : zeros_along(branch, asked().values, quantity)) {
-        const std::complex<double> there = value_along(branch, asked().values, value);
-        table.rows.push_back({event, std::to_string(b + 1), value, std::abs(there.imag()) / turn, branch.back().what});
-      }
-    };
+  const std::vector<double>& values = asked().values;
+  const std::vector<ModeBranches::Branch>& all = branches_.all();
+  const auto add = [&](const std::string& event, const std::string& branch, double value, double w,
+                       const std::string& what) {
+    table.rows.push_back({event, branch, value, w / turn, what});
+  };
+  const auto grows = [](const std::complex<double>& lambda) { return lambda.real() > 1e-6 * std::abs(lambda); };
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    const ModeBranches::Branch& branch = all[b];
+    const std::string name = std::to_string(b + 1);
     for (const double order : asked().speed > 0.0 ? asked().orders : std::vector<double>())
-      add("critical speed of order " + io::rounded_text(order, 6),
-          [&](std::complex<double> lambda, double value) { return lambda.imag() - order * asked().speed * value; });
-    add("onset of growth", [](std::complex<double> lambda, double) {
-      return std::abs(lambda.real()) > 1e-9 * std::abs(lambda) ? lambda.real() : -1e-300;
-    });
+      for (const double value : zeros_along(branch, values, [&](std::complex<double> lambda, double at) {
+             return lambda.imag() - order * asked().speed * at;
+           }))
+        add("critical speed of order " + io::rounded_text(order, 6), name, value,
+            value_along(branch, values, value).imag(), branch.back().what);
+    for (std::size_t k = 1; k < branch.size(); ++k) {
+      if (grows(branch[k - 1].eigenvalue) || !grows(branch[k].eigenvalue)) continue;
+      const double low = values[branch[k - 1].at], high = values[branch[k].at];
+      const std::size_t mirror = branches_.mirror_of(b, branch[k].at);
+      std::vector<double> met;
+      if (mirror < all.size())
+        met = zeros_along(combined(branch, all[mirror], [](auto x, auto y) { return (x - y) * (x - y); }), values,
+                          [](std::complex<double> square, double) { return square.real(); });
+      std::erase_if(met, [&](double value) { return value < low || value > high; });
+      if (met.empty()) {
+        add("onset of growth", name, 0.5 * (low + high), branch[k].eigenvalue.imag(), branch[k].what);
+        continue;
+      }
+      const auto mean = combined(branch, all[mirror], [](auto x, auto y) { return 0.5 * (x + y); });
+      add("onset of flutter", name + " and " + std::to_string(mirror + 1), met.front(),
+          value_along(mean, values, met.front()).imag(), branch[k].what);
+    }
   }
   return table;
 }

@@ -113,6 +113,22 @@ void ModeBranches::keep(std::size_t count) {
   shapes_.clear();
 }
 
+std::size_t ModeBranches::mirror_of(std::size_t branch, std::size_t at) const {
+  constexpr double is_mirror = 1e-6;
+  const auto point_at = [at](const Branch& of) {
+    return std::find_if(of.begin(), of.end(), [at](const Point& p) { return p.at == at; });
+  };
+  const auto own = point_at(branches_[branch]);
+  for (std::size_t b = 0; b < branches_.size(); ++b) {
+    if (b == branch || own == branches_[branch].end()) continue;
+    if (const auto p = point_at(branches_[b]);
+        p != branches_[b].end() &&
+        std::abs(p->eigenvalue + std::conj(own->eigenvalue)) < is_mirror * std::abs(own->eigenvalue))
+      return b;
+  }
+  return branches_.size();
+}
+
 std::string ModeBranches::doubt(const std::vector<double>& values) const {
   std::string text;
   int count = 0;
@@ -163,6 +179,16 @@ std::complex<double> value_along(const ModeBranches::Branch& branch, const std::
     sum += weight * branch[i].eigenvalue;
   }
   return sum;
+}
+
+ModeBranches::Branch combined(
+    const ModeBranches::Branch& one, const ModeBranches::Branch& other,
+    const std::function<std::complex<double>(std::complex<double>, std::complex<double>)>& f) {
+  ModeBranches::Branch both;
+  for (const ModeBranches::Point& p : one)
+    for (const ModeBranches::Point& q : other)
+      if (p.at == q.at) both.push_back({p.at, f(p.eigenvalue, q.eigenvalue), 1.0, 0.0, p.what});
+  return both;
 }
 
 std::vector<double> zeros_along(const ModeBranches::Branch& branch, const std::vector<double>& values,

@@ -31,6 +31,9 @@ class ModeBranches {
   /// Leaves the branches that have the slowest vibrations where they begin.
   void keep(std::size_t count);
   const std::vector<Branch>& all() const { return branches_; }
+  /// The branch that mirrors one at a value, lambda = -conj(lambda of that): both come from two vibrations that met there
+  /// before. all().size(): there is none.
+  std::size_t mirror_of(std::size_t branch, std::size_t at) const;
   /// Between which values a branch was continued by a mode that is not much like the one before, in words.
   std::string doubt(const std::vector<double>& values) const;
 
@@ -42,6 +45,9 @@ class ModeBranches {
 
 /// The eigenvalue of a branch between its points, by the cubic through the four nearest ones.
 std::complex<double> value_along(const ModeBranches::Branch& branch, const std::vector<double>& values, double value);
+/// A branch of f(lambda of one, lambda of the other) at the values that both have.
+ModeBranches::Branch combined(const ModeBranches::Branch& one, const ModeBranches::Branch& other,
+                              const std::function<std::complex<double>(std::complex<double>, std::complex<double>)>& f);
 /// Values at which a quantity of the eigenvalue and of the value changes from negative to positive, or back.
 std::vector<double> zeros_along(const ModeBranches::Branch& branch, const std::vector<double>& values,
                                 const std::function<double(std::complex<double>, double)>& quantity);

@@ -37,7 +37,7 @@ def market(path):
 
 with tempfile.TemporaryDirectory() as folder:
     out = pathlib.Path(folder) / "model"
-    scene = pathlib.Path(sys.argv[2]) / "data/scenarios/servo_model.json"
+    scene = pathlib.Path(sys.argv[2]) / "data/gallery/servo_model.json"
     subprocess.run([sys.argv[1], "run", scene, "--out", out, "--quiet"], check=True)
     model = json.loads((out / "linear_model.json").read_text())
     arrays = numpy.load(out / "linear_model.npz")

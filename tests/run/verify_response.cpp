@@ -131,6 +131,38 @@ TEST(Response, an_oscillator_on_a_moved_base_answers_as_its_closed_form) {
   }
 }
 
+/// A disc that spins about x on a bushing, tilted by a moment about y:
+///   (k - I w^2) a_y + i w J W a_z = M,  (k - I w^2) a_z - i w J W a_y = 0
+/// seen from the ground. A point on its axis shows the tilt, and its rates without those of the spin.
+TEST(Response, of_a_spinning_disc_is_seen_from_the_ground_with_its_gyroscopic_moments) {
+  const double k = 900.0, I = 0.2, J = 0.35, W = 60.0;
+  const TableSeen seen(support::run_ok(scene_of(R"({
+    "bodies": [{"name": "disc", "mass": 3, "inertia": [0.35, 0.2, 0.2]}],
+    "bushings": [{"name": "mount", "first": "ground", "second": "disc", "stiffness": [5e4, 5e4, 5e4, 0, 900, 900]}],
+    "initial_velocities": [{"of": "disc", "angular_velocity": [60, 0, 0]}],
+    "loads": [{"name": "tilt", "at": "disc", "moment": [0, 1, 0], "law": 0}],
+    "sensors": [{"name": "axis", "kind": "position", "at": {"to": "disc", "position": [1, 0, 0]}},
+                {"name": "pace", "kind": "velocity", "at": {"to": "disc", "position": [1, 0, 0]}},
+                {"name": "shake", "kind": "acceleration", "at": {"to": "disc", "position": [1, 0, 0]}}],
+    "analysis": {"kind": "response", "about": "start", "inputs": ["tilt"], "frequencies": [0.5, 2, 7, 19, 40]}})")),
+                       "response");
+  ASSERT_EQ(seen.count(), 5U);
+  for (std::size_t row = 0; row < seen.count(); ++row) {
+    const double w = 2.0 * pi * seen.number(row, "frequency");
+    const Complex s(0.0, w), own = k - I * w * w, cross = s * J * W, det = own * own + cross * cross;
+    const Complex y = cross / det, z = -own / det;  // a_z and -a_y
+    const auto is = [&](const std::string& name, Complex exact) {
+      EXPECT_LT(std::abs(response_of(seen, row, name) - exact), 1e-9 * std::abs(exact)) << name << " at " << w;
+    };
+    is("axis.y", y);
+    is("axis.z", z);
+    is("pace.vy", s * y);
+    is("pace.vz", s * z);
+    is("shake.ay", s * s * y);
+    is("shake.az", s * s * z);
+  }
+}
+
 TEST(Response, mean_squares_under_white_noise_are_those_of_the_closed_form) {
   // one-sided density G of the force per Hz: <x^2> = G / (4 k c)
   scene::Scene scene = scene_of(oscillator(R"({"of": "push", "spectrum": [[0, 0.5], [1000, 0.5]]})"));
