@@ -87,37 +87,38 @@ std::vector<Case> cases() {
 
 /// Two telescopic Cardan shafts side by side between a driven input and a braked output: one row depends on the others,
 /// and its null vector, a torque locked between the two shafts, turns with them.
-const char* const cardan_shafts = R"-(
-    {"parameters": {"n": 2, "w": 12, "b": {"expression": "17*pi/180"}, "g": {"expression": "34*pi/180"}, "L": 0.3,
-    "brake": 6.5}, "bodies": [{"name": "input", "mass": 2, "inertia": [0.01, 0.02, 0.02], "position": [-0.1, 0, 0]},
-    {"name": "output", "mass": 2, "inertia": [0.01, 0.02, 0.02], "position": [{"expression": "L*cos(b)+0.1*cos(g)"
-},
-    0, {"expression": "L*sin(b)+0.1*sin(g)"}], "rotation": {
-  "axis" : [ 0, -1, 0 ], "angle" : { "expression" : "g" }
-}
-}],
-    "joints": [{"name": "bearing 1", "kind": "revolute", "first": "ground", "second": "input", "position": [-0.1, 0,
-    0], "axis": [1, 0, 0], "drives": [{"law": {"expression": "w"}, "rate": true}]}, {"name": "bearing 2",
-    "kind": "revolute", "first": "ground", "second": "output", "axis": [{"expression": "cos(g)"}, 0,
-    {"expression": "sin(g)"}], "forces": [{"name": "brake", "effort": {"expression": "-brake"}}]}],
-    "repeat": [{"index": "i", "first": 1, "count": {"expression": "n"}, "bodies": [{"name": "half a{i}",
-    "mass": 0.5, "inertia": [0.004, 0.003, 0.003], "position": [{"expression": "0.075*cos(b)"}, 0,
-    {"expression": "0.075*sin(b)"}], "rotation": {"axis": [0, -1, 0], "angle": {"expression": "b"}}},
-    {"name": "half b{i}", "mass": 0.5, "inertia": [0.004, 0.003, 0.003],
-    "position": [{"expression": "0.225*cos(b)"}, 0, {"expression": "0.225*sin(b)"}], "rotation": {"axis": [0, -1,
-    0], "angle": {"expression": "b"}}}], "joints": [{"name": "cross 1 of {i}", "kind": "universal",
-    "first": "input", "second": "half a{i}", "position": [0, 0, 0], "axis": [0, 0, 1], "second_axis": [0, 1, 0]},
-    {"name": "slide {i}", "kind": "prismatic", "first": "half a{i}", "second": "half b{i}",
-    "position": [{"expression": "0.15*cos(b)"}, 0, {"expression": "0.15*sin(b)"}],
-    "axis": [{"expression": "cos(b)"}, 0, {"expression": "sin(b)"}]}, {"name": "cross 2 of {i}",
-    "kind": "universal", "first": "half b{i}", "second": "output", "position": [{"expression": "L*cos(b)"}, 0,
-    {"expression": "L*sin(b)"}], "axis": [0, 1, 0], "second_axis": [{"expression": "-sin(g)"}, 0,
-    {"expression": "cos(g)"}]}]}], "sensors": [{"name": "torque", "kind": "joint_effort", "joint": "bearing 1",
-    "of": "drive"}, {"name": "r1", "kind": "joint_reaction", "joint": "slide 1", "axes": "body"}, {"name": "r2",
-    "kind": "joint_reaction", "joint": "slide 2", "axes": "body"}], "analysis": {
-  "kind" : "dynamic", "end_time" : 4, "step_size" : 0.002
-}
-})-";
+const char* const cardan_shafts = R"-({
+  "parameters": {"w": 12, "b": {"expression": "17*pi/180"}, "g": {"expression": "34*pi/180"}, "L": 0.3},
+  "bodies": [
+    {"name": "input", "mass": 2, "inertia": [0.01, 0.02, 0.02], "position": [-0.1, 0, 0]},
+    {"name": "output", "mass": 2, "inertia": [0.01, 0.02, 0.02],
+     "position": [{"expression": "L*cos(b) + 0.1*cos(g)"}, 0, {"expression": "L*sin(b) + 0.1*sin(g)"}],
+     "rotation": {"axis": [0, -1, 0], "angle": {"expression": "g"}}}],
+  "joints": [
+    {"name": "in", "kind": "revolute", "first": "ground", "second": "input", "position": [-0.1, 0, 0],
+     "axis": [1, 0, 0], "drives": [{"law": {"expression": "w"}, "rate": true}]},
+    {"name": "out", "kind": "revolute", "first": "ground", "second": "output",
+     "axis": [{"expression": "cos(g)"}, 0, {"expression": "sin(g)"}], "forces": [{"effort": -6.5}]}],
+  "repeat": [{"index": "i", "first": 1, "count": 2,
+    "bodies": [
+      {"name": "near {i}", "mass": 0.5, "inertia": [0.004, 0.003, 0.003],
+       "position": [{"expression": "0.075*cos(b)"}, 0, {"expression": "0.075*sin(b)"}],
+       "rotation": {"axis": [0, -1, 0], "angle": {"expression": "b"}}},
+      {"name": "far {i}", "mass": 0.5, "inertia": [0.004, 0.003, 0.003],
+       "position": [{"expression": "0.225*cos(b)"}, 0, {"expression": "0.225*sin(b)"}],
+       "rotation": {"axis": [0, -1, 0], "angle": {"expression": "b"}}}],
+    "joints": [
+      {"name": "first cross {i}", "kind": "universal", "first": "input", "second": "near {i}", "position": [0, 0, 0],
+       "axis": [0, 0, 1], "second_axis": [0, 1, 0]},
+      {"name": "slide {i}", "kind": "prismatic", "first": "near {i}", "second": "far {i}",
+       "position": [{"expression": "0.15*cos(b)"}, 0, {"expression": "0.15*sin(b)"}],
+       "axis": [{"expression": "cos(b)"}, 0, {"expression": "sin(b)"}]},
+      {"name": "second cross {i}", "kind": "universal", "first": "far {i}", "second": "output",
+       "position": [{"expression": "L*cos(b)"}, 0, {"expression": "L*sin(b)"}], "axis": [0, 1, 0],
+       "second_axis": [{"expression": "-sin(g)"}, 0, {"expression": "cos(g)"}]}],
+    "sensors": [{"name": "r{i}", "kind": "joint_reaction", "joint": "slide {i}", "axes": "body"}]}],
+  "sensors": [{"name": "torque", "kind": "joint_effort", "joint": "in", "of": "drive"}],
+  "analysis": {"kind": "dynamic", "end_time": 4, "step_size": 0.002}})-";
 
 // What no equation sees grew by e every radian. The closed form is that of two Hooke's joints in phase: the shafts
 // between turn at w3 = w cos b / (1 - sin^2 b cos^2 wt), and each takes J w3 w3' / w of the drive's torque.
