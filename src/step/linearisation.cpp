@@ -351,8 +351,9 @@ bool Linearisation::factor_soundly(const Combination& of_parts, solve::Symmetry 
   double left[2] = {0.0, 0.0}, whole[2] = {0.0, 0.0};  // of forces, and of constraint rows
   for (std::size_t i = 0; i < size(); ++i) {
     const double weight = is_row_[i] != 0 ? 1.0 : 1.0 / weights_[i];
-    left[is_row_[i]] += weight * (again[i] - forces[i]) * (again[i] - forces[i]);
-    whole[is_row_[i]] += weight * forces[i] * forces[i];
+    const std::size_t kind = is_row_[i] != 0 ? 1 : 0;
+    left[kind] += weight * (again[i] - forces[i]) * (again[i] - forces[i]);
+    whole[kind] += weight * forces[i] * forces[i];
   }
   return left[0] <= allowed * allowed * whole[0] && left[1] <= allowed * allowed * whole[1];
 }

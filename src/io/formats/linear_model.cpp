@@ -131,14 +131,14 @@ class ZipArchive {
     const auto crc = static_cast<std::uint32_t>(
         crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
     std::string common;
-    for (const std::uint16_t word : {20, 0, 0, 0, 0x21})
-      put_number(common, word);  // version, flags, stored, 1980-01-01
+    // Version, flags, stored, 1980-01-01.
+    for (const int word : {20, 0, 0, 0, 0x21}) put_number(common, static_cast<std::uint16_t>(word));
     for (const std::uint32_t number : {crc, size, size}) put_number(common, number);
     put_number(common, static_cast<std::uint16_t>(name.size()));
     put_number(common, std::uint16_t{0});
     text_ += "PK\x03\x04" + common + name + bytes;
     list_ += std::string("PK\x01\x02\x14", 5) + std::string(1, '\0') + common;
-    for (const std::uint16_t word : {0, 0, 0}) put_number(list_, word);
+    for (int k = 0; k < 3; ++k) put_number(list_, std::uint16_t{0});
     put_number(list_, std::uint32_t{0});
     put_number(list_, offset);
     list_ += name;
