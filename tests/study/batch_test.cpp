@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "bough/io/atomic_file.hpp"
+#include "bough/io/history.hpp"
 #include "bough/io/run_directory.hpp"
 #include "bough/records/errors.hpp"
 #include "cases/case_report.hpp"
