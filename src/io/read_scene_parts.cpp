@@ -290,6 +290,10 @@ void Converter::tell_meshes() {
     names += " and " + std::to_string(beams_without_mesh.size() - most_named) + " more beams";
   warnings.push_back({"/beams", "", "the mesh of " + names + " is chosen: twelve nodes beside the first, 24 on a curve",
                       "give \"elements\" and \"order\"; a run with twice as many elements tells the error of a mesh"});
+}
+
+/// Says which inner nodes of these stand for places.
+void Converter::tell_places_in_chosen_meshes() {
   for (const auto& [name, at] : inner_nodes) {
     const std::string of = name.substr(0, name.rfind('.'));
     if (std::find(beams_without_mesh.begin(), beams_without_mesh.end(), of) == beams_without_mesh.end()) continue;

@@ -348,6 +348,7 @@ void Converter::convert() {
   each("sensors", &Converter::sensor);
   each("expected", &Converter::expected);
   each("measures", &Converter::measure);
+  tell_places_in_chosen_meshes();
   weigh();
 }
 

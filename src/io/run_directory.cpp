@@ -193,7 +193,12 @@ void RunDirectory::settle_checkpoints(records::RunStatus status) {
 void RunDirectory::begin(const records::HistoryHeader& header) {
   open();
   make_writers();
-  for (const auto& writer : writers_) writer->begin(header);
+  try {
+    for (const auto& writer : writers_) writer->begin(header);
+  } catch (...) {
+    writers_.clear();  // it has not begun
+    throw;
+  }
 }
 
 void RunDirectory::row(const records::HistoryRow& row) {

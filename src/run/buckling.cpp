@@ -41,7 +41,7 @@ class Buckling final : public Analysis {
   bool ends_in_correction() const override { return false; }
   void checkpoint(records::Archive& archive) override {
     Analysis::checkpoint(archive);
-    archive(is_done_, is_counted_, last_critical_, way_);
+    archive(is_done_, is_counted_, last_critical_, way_, found_);
   }
   void sum_up() override;
   void add_doubts() override {
@@ -59,6 +59,7 @@ class Buckling final : public Analysis {
     double change = 0.0;  ///< from the estimate before, relative
     step::CriticalLoad load;
     step::UnstableMode where;
+    void checkpoint(records::Archive& archive) { archive(factor, change, load.distance, load.shape, where); }
   };
   struct Estimate {
     std::string cause;
@@ -250,7 +251,7 @@ bool Buckling::find_next(std::vector<Found>& found, bool& is_last) {
     near.clear();
     if (std::abs(way) <= near_enough * factor)
       for (const step::CriticalLoad& load : now.next)
-        near.push_back({factor + load.distance - way, std::abs(factor / before - 1.0), load,
+        near.push_back({factor + load.distance - way, before > 0.0 ? std::abs(factor / before - 1.0) : 1.0, load,
                         step::unstable_mode_of(system_, state_, load.shape)});
     plain_before = plain;
     way_before = way;

@@ -32,6 +32,10 @@ class Campbell final : public Analysis {
   bool take_step() override;
   bool is_done() const override { return next_ == asked().values.size(); }
   bool ends_in_correction() const override { return false; }
+  void checkpoint(records::Archive& archive) override {
+    Analysis::checkpoint(archive);
+    archive(next_, branches_, from_where_, doubts_);
+  }
   void sum_up() override;
   void add_doubts() override {
     for (const std::string& text : doubts_) summary().doubts.push_back({"state", text});

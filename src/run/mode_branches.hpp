@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bough/records/archive.hpp"
 #include "bough/step/modes.hpp"
 
 namespace bough::run {
@@ -21,6 +22,7 @@ class ModeBranches {
     double likeness = 1.0;  ///< MAC to the point before
     double residual = 0.0;
     std::string what;
+    void checkpoint(records::Archive& archive) { archive(at, eigenvalue, likeness, residual, what); }
   };
   using Branch = std::vector<Point>;
 
@@ -34,6 +36,7 @@ class ModeBranches {
   /// The branch that mirrors one at a value, lambda = -conj(lambda of that): both come from two vibrations that met there
   /// before. all().size(): there is none.
   std::size_t mirror_of(std::size_t branch, std::size_t at) const;
+  void checkpoint(records::Archive& archive) { archive(branches_, shapes_, num_values_); }
   /// Between which values a branch was continued by a mode that is not much like the one before, in words.
   std::string doubt(const std::vector<double>& values) const;
 

@@ -324,7 +324,7 @@ class RunWithItsTwins {
       }
       std::sort(changes.rbegin(), changes.rend());
       if (changes.empty() || !(all > 0.0)) continue;
-      const auto share = [all](double of) { return io::rounded_text(100.0 * of / all, 2) + " %"; };
+      const auto share = [all](double of) { return io::rounded_text(100.0 * of / all, 3) + " %"; };
       std::string& cause = errors.columns[c].mesh.cause;
       if (!cause.empty()) cause += "; ";
       cause += "'" + changes[0].second + "' makes " + share(changes[0].first) + " of it";

@@ -112,9 +112,9 @@ void check_angle(ProblemList& list, const char* section, std::size_t i, const st
   const double most = largest_over_time(list, law, false);
   const auto* const found =
       std::find_if(usual.begin(), usual.end(), [most](double x) { return std::abs(most - x) <= 1e-4 * x; });
+  if (found == usual.end()) return;
   const laws::LawValue end = law.at(list.scene.analysis.end_time);
-  const bool turns_on = end.rate != 0.0 && std::abs(end.value) >= (1.0 - 1e-4) * most;
-  if (found != usual.end() && !turns_on)
+  if (end.rate == 0.0 || std::abs(end.value) < (1.0 - 1e-4) * most)
     list.warn(section, i, key, name, "this angle reaches " + text_of(*found) + " rad",
               "is it given in degrees? in a formula multiply by pi/180 = 0.017453292519943295");
 }

@@ -294,8 +294,8 @@ cat > study.json <<'EOF'
 EOF
 expect 0 '3 runs, 0 failed; orders: 1 as in theory, 0 not' study study.json --out study.out
 holds test "$(head -c 15 study.out/study.csv)" = 'grid,step size,'
-holds test "$(wc -l < study.out/study.csv)" -eq 4
-holds python3 -c 'import json; assert len(json.load(open("study.out/study.json"))["runs"]) == 3'
+holds test "$(wc -l < study.out/study.csv)" -eq 6
+holds python3 -c 'import json; runs = json.load(open("study.out/study.json"))["runs"]; assert len([r for r in runs if "pair" not in r]) == 3 and len(runs) == 5'
 holds grep -q '</html>' study.out/study.html
 sed 's/"order": 2, "theory"/"order": 3, "theory"/' study.json > high.json
 expect 1 'theory 3' study high.json --out high.out

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bough/run/memory_run.hpp"
 #include "support/scenes.hpp"
 
 namespace bough::run {
@@ -125,19 +126,17 @@ const char* const cardan_shafts = R"-({
 TEST(Redundancy, reactions_of_loops_that_turn_stay_those_of_least_norm) {
   const double w = 12.0, b = 17.0 * 3.14159265358979323846 / 180.0, inertia = 0.008, brake = 6.5;
   for (const char* form : {"local", "augmented", "hybrid"}) {
-    const auto outcome = run(scene_of(cardan_shafts, {std::string("/solver/form=") + form}));
-    ASSERT_TRUE(outcome.ok()) << form << ": " << outcome.summary.cause;
-    const auto torque = outcome.history.column("torque"), first = outcome.history.column("r1.mz"),
-               second = outcome.history.column("r2.mz");
+    const MemoryRun outcome = run_in_memory(scene_of(cardan_shafts, {std::string("/solver/form=") + form}));
+    ASSERT_TRUE(outcome.ok()) << form << ": " << outcome.text();
+    const auto torque = outcome.series("torque"), first = outcome.series("r1.mz"), second = outcome.series("r2.mz");
     double off = 0.0, apart = 0.0;
-    for (std::size_t k = 1; k < outcome.history.times.size(); ++k) {
-      const std::vector<double>& row = outcome.history.rows[k];
-      const double t = outcome.history.times[k], c = std::cos(w * t), s = std::sin(w * t), sine = std::sin(b);
+    for (std::size_t k = 1; k < outcome.rows.size(); ++k) {
+      const double c = std::cos(w * outcome.rows[k].time), s = std::sin(w * outcome.rows[k].time), sine = std::sin(b);
       const double d = 1.0 - sine * sine * c * c, speed = w * std::cos(b) / d;
       const double rate = -w * std::cos(b) / (d * d) * (2.0 * sine * sine * c * s * w);
       const double expected = brake + 2.0 * inertia * speed * rate / w;
-      off = std::max(off, std::abs(std::abs(row[torque]) - expected));
-      apart = std::max(apart, std::abs(row[first] - row[second]));
+      off = std::max(off, std::abs(std::abs(torque[k]) - expected));
+      apart = std::max(apart, std::abs(first[k] - second[k]));
     }
     std::printf("%s: torque off by %.1e N m, the shafts share it to %.1e N m\n", form, off, apart);
     EXPECT_LT(off, 1e-3) << form;

@@ -134,7 +134,7 @@ TEST(SectionForces, have_their_extremes_where_closed_forms_have_them) {
     const auto [peak, under] = far_from_zero(at_node, "M");
     EXPECT_NEAR(peak, P * a * (L - a) / L, 2e-2);
     EXPECT_NEAR(under, 1.0 / nodes, 1e-6);
-    EXPECT_NEAR(at_node.history.last("Q.largest") - at_node.history.last("Q.least"), P, 1e-3);
+    EXPECT_NEAR(at_node.history.last("Q.largest") - at_node.history.last("Q.least"), P, 1e-2);  // axes turn, too
   }
 }
 

@@ -81,15 +81,15 @@ TEST(Sweep, finds_the_orders_of_both_integrators_against_closed_form_and_finer_s
   }
 }
 
-// Both integrators have errors with even powers of the step alone: two runs tell the error of the finer one, and leave
-// one of fourth order.
+// Errors of both integrators have even powers of the step, and generalized-alpha a small third one: two runs tell the
+// error of the finer one, and leave one of fourth order.
 TEST(Sweep, extrapolates_pairs_of_runs_to_fourth_order_and_tells_their_errors) {
   const SweepResult r = run_sweep(pendulum_study("[0.02, 0.01, 0.005, 0.0025]"), {});
   ASSERT_EQ(r.series.size(), 4u);
   for (std::size_t s = 2; s < 4; ++s) {
     const SweepSeries& pairs = r.series[s];
     ASSERT_EQ(pairs.runs.size(), 3u) << pairs.label;
-    EXPECT_NEAR(pairs.fits[0].order, 4.0, 0.2) << pairs.label;
+    EXPECT_NEAR(pairs.fits[0].order, 4.0, 0.3) << pairs.label;
     for (const std::size_t k : pairs.runs) {
       const SweepRun& pair = r.runs[k];
       const SweepRun &fine = r.runs[pair.pair->first], &coarse = r.runs[pair.pair->second];
