@@ -183,7 +183,7 @@ class MinimalForm {
     order_.insert(order_.end(), without.begin(), without.end());
     const auto pick = [&](const Matrix& A, bool of_rows) -> Matrix {
       Matrix picked(A.rows(), A.cols());
-      for (Index k = 0; k < f; ++k) {
+      for (Index k = 0; k < f && A.size() > 0; ++k) {
         const Index from = order_[static_cast<std::size_t>(k)];
         if (of_rows)
           picked.row(k) = A.row(from);
@@ -206,7 +206,7 @@ class MinimalForm {
       Matrix known = Matrix::Zero(b, size);
       known.leftCols(a) = Ko.bottomLeftCorner(b, a);
       known.middleCols(a, a) = Co.bottomLeftCorner(b, a);
-      known.rightCols(r) = Ro.bottomRows(b);
+      if (r > 0) known.rightCols(r) = Ro.bottomRows(b);
       const Matrix known_u = Uo.bottomRows(b);
       const Eigen::FullPivLU<Matrix> lu(has_rates_ ? C00 : K00);
       if (!lu.isInvertible())
