@@ -144,7 +144,7 @@ class Converter : private ValueConverter {
   void warn_of_thickness(const JsonValue& shape, const scene::Material& material, const std::string& at);
   void warn_of_body_size(const JsonValue& body, const std::string& at, double density);
   void warn_of_thick_beams();
-  std::vector<std::string> beams_without_mesh;                   ///< whose elements the scene does not give
+  std::vector<std::string> beams_without_mesh;  ///< whose elements the scene does not give
   void tell_places_in_chosen_meshes();
   std::vector<std::pair<std::string, std::string>> inner_nodes;  ///< named as places, and where
   void warn_of_degrees(const laws::Law& angle, const std::string& at);
