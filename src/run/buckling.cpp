@@ -62,7 +62,8 @@ class Buckling final : public Analysis {
     void checkpoint(records::Archive& archive) { archive(factor, change, load.distance, load.shape, where); }
   };
   struct Estimate {
-    std::string cause;
+    bool is_reached = true;  ///< the equilibria beside the present one were found
+    std::string cause;       ///< why there is no estimate; empty: there is
     step::CriticalLoads loads;
     std::vector<step::CriticalLoad> next;  ///< the nearest above what has been found, and its equals
   };
@@ -122,10 +123,9 @@ Buckling::Estimate Buckling::estimate(double difference) {
   std::array<Linearisation, 2> there{Linearisation(system_), Linearisation(system_)};
   step::State other = state_;
   for (std::size_t k = 0; k < there.size() && result.cause.empty(); ++k) {
-    if (const auto why = go_to(other, state_.time + (1.0 + static_cast<double>(k)) * difference))
-      result.cause = *why;
-    else
-      result.cause = take_tangents(there[k], other);
+    const auto why = go_to(other, state_.time + (1.0 + static_cast<double>(k)) * difference);
+    result.is_reached = !why;
+    result.cause = why ? *why : take_tangents(there[k], other);
   }
   if (result.cause.empty()) result.cause = take_tangents(here, state_);
   if (!result.cause.empty()) return result;
@@ -157,7 +157,7 @@ Buckling::Estimate Buckling::first_estimate() {
     const double difference = small * way_;
     result = estimate(difference);
     if (!result.cause.empty()) {
-      if (result.cause.find("no equilibrium") == std::string::npos) return result;
+      if (result.is_reached) return result;
       way_ *= 0.1;
       continue;
     }

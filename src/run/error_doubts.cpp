@@ -78,10 +78,15 @@ void doubt_worst(const records::MeasuredErrors& errors, ErrorPart ErrorOf::*part
 
 constexpr double most_ratio = 4.0, least_ratio = 2.0;  ///< of differences, which errors of second and first order have
 
+/// By how much the largest differences between members shrink, no more than second order gives.
+double shrinking(const ErrorPart& part) {
+  return part.largest > 0.0 ? std::min(part.spread / part.largest, most_ratio) : 0.0;
+}
+
 /// What twins tell of the error of a column that they know or on which they agree.
 double error_told(const ErrorPart& part) {
   if (part.is_known() || !part.has_finer) return part.largest;
-  const double ratio = std::clamp(part.spread / part.largest, least_ratio, most_ratio);
+  const double ratio = std::max(shrinking(part), least_ratio);
   return part.largest * ratio / (ratio - 1.0);
 }
 
@@ -121,7 +126,7 @@ bool agrees(const ErrorPart& part, double bound) {
   constexpr double small = 0.25, safety = 2.0;
   if (part.state != ErrorState::not_resolved || part.largest > bound) return false;
   if (part.largest <= small * bound && part.spread <= bound) return true;
-  const double ratio = part.largest > 0.0 ? std::min(part.spread / part.largest, most_ratio) : 0.0;
+  const double ratio = shrinking(part);
   return ratio >= least_ratio && part.largest * ((part.has_finer ? 1.0 : 0.0) + safety / (ratio - 1.0)) <= bound;
 }
 

@@ -22,9 +22,9 @@ int LoadSteps::most_cuts() const {
   return options_.max_cuts + (options_.max_cuts == scene::Analysis{}.max_cuts ? more : 0);
 }
 
-/// What may help; nothing does where the tangent is singular, since loads move what no stiffness holds.
-std::string LoadSteps::ways_on(const std::string& cause) const {
-  if (!plan_.mobility.free.empty() && cause.find("singular") != std::string::npos) return {};
+/// What may help; nothing does where the tangent has no factor, since loads move what no stiffness holds.
+std::string LoadSteps::ways_on() const {
+  if (!plan_.mobility.free.empty() && !system_.linear().has_factor({})) return {};
   return "; tried were " + std::to_string(num_steps_) + (num_steps_ == 1 ? " load step" : " load steps") + ", halved " +
          std::to_string(most_cuts()) +
          " times. Ways on: \"arc_length\": {} follows the path past a limit point of the "
@@ -74,8 +74,7 @@ bool LoadSteps::take_step() {
     count(report);
     if (!report.converged) {
       if (++level_ > most_cuts())
-        return fail("no equilibrium at load factor " + io::rounded_text(target, 12) + ": " + report.cause +
-                    ways_on(report.cause));
+        return fail("no equilibrium at load factor " + io::rounded_text(target, 12) + ": " + report.cause + ways_on());
       part_ *= 2;
       continue;
     }

@@ -28,7 +28,7 @@ class LoadSteps final : public Statics {
  private:
   void begin_load_step();
   int most_cuts() const;
-  std::string ways_on(const std::string& cause) const;
+  std::string ways_on() const;
 
   int num_steps_, step_ = 0;   ///< number of load steps, and index of the present one
   std::vector<double> stops_;  ///< load factors at which its parts end

@@ -4,26 +4,18 @@
 
 #include <complex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/scenes.hpp"
+#include "table_seen.hpp"
 
 namespace bough::verify {
 
 /// The table of modes of a run.
-class ModesSeen {
+class ModesSeen : public TableSeen {
  public:
-  explicit ModesSeen(const scene::Scene& scene) : outcome(support::run(scene)) {
-    EXPECT_TRUE(outcome.ok()) << outcome.summary.cause;
-    if (!outcome.summary.tables.empty()) table_ = outcome.summary.tables.front();
-  }
-  std::size_t count() const { return table_.rows.size(); }
-  double number(std::size_t row, const std::string& column) const {
-    return std::get<double>(table_.rows.at(row).at(place(column)));
-  }
-  std::string text(std::size_t row, const std::string& column) const {
-    return std::get<std::string>(table_.rows.at(row).at(place(column)));
-  }
+  explicit ModesSeen(const scene::Scene& scene) : ModesSeen(support::run(scene)) {}
   std::complex<double> eigenvalue(std::size_t row) const {
     return {number(row, "real_part"), number(row, "imaginary_part")};
   }
@@ -39,7 +31,7 @@ class ModesSeen {
     for (std::size_t k = 0; k < count(); ++k) most = std::max(most, number(k, "residual"));
     return most;
   }
-  bool says(const std::string& words) const { return table_.about.find(words) != std::string::npos; }
+  bool says(const std::string& words) const { return table().about.find(words) != std::string::npos; }
   std::size_t count_of(const std::string& kind) const {
     std::size_t found = 0;
     for (std::size_t k = 0; k < count(); ++k) found += text(k, "kind") == kind ? 1 : 0;
@@ -49,12 +41,9 @@ class ModesSeen {
   support::Outcome outcome;
 
  private:
-  std::size_t place(const std::string& column) const {
-    for (std::size_t c = 0; c < table_.columns.size(); ++c)
-      if (table_.columns[c].name == column) return c;
-    throw std::out_of_range("no column " + column);
+  explicit ModesSeen(support::Outcome of) : TableSeen(of), outcome(std::move(of)) {
+    EXPECT_TRUE(outcome.ok()) << outcome.summary.cause;
   }
-  records::Table table_;
 };
 
 /// Square steel bar of .1 m.

@@ -14,6 +14,10 @@ namespace bough::verify {
 class TableSeen {
  public:
   TableSeen() = default;
+  /// The first one; of a run that left none an empty one.
+  explicit TableSeen(const support::Outcome& outcome) {
+    if (!outcome.summary.tables.empty()) table_ = outcome.summary.tables.front();
+  }
   TableSeen(const support::Outcome& outcome, const std::string& name) {
     for (const records::Table& table : outcome.summary.tables)
       if (table.name == name) table_ = table;

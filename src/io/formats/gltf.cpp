@@ -242,8 +242,8 @@ class Gltf final : public ResultWriter {
     return numbers_.data() + (picture * num_nodes() + node) * numbers_per_node;
   }
 
-  /// Rows of H_node^-1 H_root^-1 at the start, in the order of glTF, column by column: with it a point of the surface is
-  /// given where it is at the start, as viewers expect.
+  /// The inverse pose of a node at the start, y upwards, as a matrix of glTF, column by column: points of a surface are
+  /// given where they are at the start, and it takes them into the axes of their node.
   std::array<float, 16> inverse_at_start(std::size_t node) const {
     const motion::Mat3<double> R = rotation_at_start(node);
     const motion::Vec3<double> x = place_at_start(node), own = lanes::transpose_times(R, x);

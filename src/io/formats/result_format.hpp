@@ -79,16 +79,4 @@ std::unique_ptr<ResultWriter> make_writer(const std::filesystem::path& folder) {
   return std::make_unique<Writer>(folder);
 }
 
-// The rows, in the files of the formats.
-ResultFormat history_csv();
-ResultFormat history_npy();
-ResultFormat columns_json();
-ResultFormat motion_bin();
-ResultFormat states_bin();
-ResultFormat paraview();  ///< in builds with BOUGH_WITH_VTK
-ResultFormat gltf();
-ResultFormat errors_csv_format();
-ResultFormat tables_csv();
-ResultFormat linear_model();
-
 }  // namespace bough::io

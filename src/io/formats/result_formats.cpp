@@ -3,6 +3,18 @@
 
 namespace bough::io {
 
+// The rows, in the files of the formats.
+ResultFormat history_csv();
+ResultFormat history_npy();
+ResultFormat columns_json();
+ResultFormat motion_bin();
+ResultFormat states_bin();
+ResultFormat paraview();  ///< in builds with BOUGH_WITH_VTK
+ResultFormat gltf();
+ResultFormat errors_csv_format();
+ResultFormat tables_csv();
+ResultFormat linear_model();
+
 const std::vector<ResultFormat>& result_formats() {
   static const std::vector<ResultFormat> formats = {
       history_csv(), history_npy(),       columns_json(), motion_bin(),   states_bin(),
