@@ -42,14 +42,21 @@ function(bough_use_precompiled)
   endforeach()
 endfunction()
 
-# bough_precompile_headers(target HEADERS header ... SKIP source ...): in optimised builds of static layers by g++, HEADERS
+# bough_precompile_headers(target HEADERS header ... SKIP source ... SHARED_WITH target ...): in optimised builds of static layers by g++, HEADERS
 # and the headers of the standard library that go with them are compiled once for the sources of a target, but for those with options of their own.
+# The targets that share them take the same options.
 function(bough_precompile_headers target)
-  cmake_parse_arguments(PARSE_ARGV 1 PCH "" "" "HEADERS;SKIP")
+  cmake_parse_arguments(PARSE_ARGV 1 PCH "" "" "HEADERS;SKIP;SHARED_WITH")
   if(BOUGH_PRECOMPILE OR BUILD_SHARED_LIBS OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     return()
   endif()
   target_precompile_headers(${target} PRIVATE <algorithm> <cmath> ${PCH_HEADERS})
   set_source_files_properties(${PCH_SKIP} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
   bough_use_precompiled(${target})
+  foreach(other IN LISTS PCH_SHARED_WITH)
+    if(TARGET ${other})
+      target_precompile_headers(${other} REUSE_FROM ${target})
+      bough_use_precompiled(${other})
+    endif()
+  endforeach()
 endfunction()
