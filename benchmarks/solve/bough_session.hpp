@@ -1,12 +1,12 @@
 #pragma once
 /// bough's solver on a problem, through its public interface.
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "bough/schedule/threads.hpp"
 #include "bough/solve/hierarchical.hpp"
+#include "bough/solve/matrix_solver.hpp"
 #include "bough/tree/tree.hpp"
 #include "peer.hpp"
 
@@ -43,40 +43,44 @@ class BoughSession final : public Session {
   bool factor() override { return storage_->solver.factor(threads_.walker()).ok(); }
   bool refactor() override { return factor(); }
   bool solve(std::vector<double>& x) override {
-    const std::size_t n = problem_.rhs.size();
-    x.resize(n);
-    if (problem_.place.empty())
-      return storage_->solver.solve_unchecked(threads_.walker(), problem_.rhs.data(), x.data()).finite;
-    work_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) work_[static_cast<std::size_t>(problem_.place[i])] = problem_.rhs[i];
-    const bool is_finite = storage_->solver.solve_unchecked(threads_.walker(), work_.data(), work_.data()).finite;
-    for (std::size_t i = 0; i < n; ++i) x[i] = work_[static_cast<std::size_t>(problem_.place[i])];
-    return is_finite;
+    x.resize(problem_.rhs.size());
+    return storage_->solver.solve_unchecked(threads_.walker(), problem_.rhs.data(), x.data()).finite;
   }
   std::string findings() const override {
-    const solve::FactorStatus& status = storage_->solver.last_status();
-    if (status.outcome == solve::FactorOutcome::not_finite) return "a number is not finite";
-    if (status.outcome == solve::FactorOutcome::singular)
-      return "singular, " + std::to_string(status.deficiency) + " null vectors, most in unknown " +
-             std::to_string(unknown_of(status) + 1);
-    return status.deficiency > 0 ? std::to_string(status.deficiency) + " dependent rows" : "";
+    return storage_->solver.last_status().ok() ? "" : "a number is not finite, or the matrix is singular";
   }
   double memory_bytes() const override { return static_cast<double>(storage_->solver.counters().memory_bytes); }
   double factor_flops() const override { return storage_->solver.counters().factor_flops; }
   void iterate(const std::function<void()>& iterations) override { threads_.keep_together(iterations); }
 
  private:
-  /// The unknown of the matrix that a failure names.
-  int unknown_of(const solve::FactorStatus& status) const {
-    const int place = problem_.unknown_begin[static_cast<std::size_t>(status.block)] + status.local;
-    const auto found = std::find(problem_.place.begin(), problem_.place.end(), place);
-    return found == problem_.place.end() ? place : static_cast<int>(found - problem_.place.begin());
-  }
-
   const Problem& problem_;
   std::shared_ptr<BoughStorage> storage_;
   schedule::Threads threads_;
-  std::vector<double> work_;
+};
+
+/// The same of a matrix without elements, whose method bough chooses.
+class BoughMatrixSession final : public Session {
+ public:
+  BoughMatrixSession(const Problem& p, std::shared_ptr<solve::MatrixSolver> solver, int threads)
+      : problem_(p), solver_(std::move(solver)), threads_(threads) {}
+  bool analyze() override { return true; }  // the solver was made with it
+  bool factor() override { return solver_->factor(threads_.walker(), problem_.matrix.value); }
+  bool refactor() override { return factor(); }
+  bool solve(std::vector<double>& x) override {
+    x.resize(problem_.rhs.size());
+    solver_->solve_unchecked(threads_.walker(), problem_.rhs.data(), x.data());
+    return true;
+  }
+  std::string findings() const override { return solver_->findings(); }
+  double memory_bytes() const override { return solver_->memory_bytes(); }
+  double factor_flops() const override { return solver_->factor_flops(); }
+  void iterate(const std::function<void()>& iterations) override { threads_.keep_together(iterations); }
+
+ private:
+  const Problem& problem_;
+  std::shared_ptr<solve::MatrixSolver> solver_;
+  schedule::Threads threads_;
 };
 
 }  // namespace bough::bench

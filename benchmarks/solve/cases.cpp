@@ -6,6 +6,7 @@
 #include "../support/cpu_time.hpp"
 #include "../support/matrix_file.hpp"
 #include "../support/scenes.hpp"
+#include "bough/schedule/serial.hpp"
 #include "bough_session.hpp"
 #include "trial.hpp"
 
@@ -24,16 +25,28 @@ bool contains(const std::vector<std::string>& list, const std::string& name) {
 void add_bough(Field& field) {
   const Problem& p = *field.problem;
   std::shared_ptr<BoughStorage> storage;
-  const double analysis = p.blocks_seconds + eval_analysis([&] { storage = std::make_shared<BoughStorage>(p); });
+  std::shared_ptr<solve::MatrixSolver> solver;
+  const double analysis = eval_analysis([&] {
+    if (!p.elements.empty())
+      storage = std::make_shared<BoughStorage>(p);
+    else
+      solver = std::make_shared<solve::MatrixSolver>(
+          schedule::make_serial_walker(), p.matrix,
+          p.is_symmetric() ? solve::Symmetry::symmetric : solve::Symmetry::general);
+  });
   for (int threads : {1, 2}) {
     Entrant e{.solver = "bough",
-              .ordering = "tree",
+              .ordering = solver != nullptr ? solve::name_of(solver->method()) : "tree",
               .threads = threads,
-              .session = std::make_shared<BoughSession>(p, storage, threads),
+              .session = nullptr,
               .backward_error = 0.0,
               .analysis = analysis,
               .first = 0.0,
               .failure = ""};
+    if (solver != nullptr)
+      e.session = std::make_shared<BoughMatrixSession>(p, solver, threads);
+    else
+      e.session = std::make_shared<BoughSession>(p, storage, threads);
     const double start = cpu_now();
     std::vector<double> x;
     bool ok = e.session->analyze() && e.session->factor();

@@ -9,8 +9,7 @@
 #include <stdexcept>
 
 #include "bough/blocks/at.hpp"
-#include "cpu_time.hpp"
-#include "transversal.hpp"
+#include "bough/solve/matrix_blocks.hpp"
 
 namespace bough::bench {
 
@@ -101,14 +100,12 @@ Problem make_problem(const std::filesystem::path& file) {
   p.matrix = std::move(read.matrix);
   p.is_scaled = false;
   p.is_definite = p.is_symmetric() && is_definite(p.matrix);
-  const double start = cpu_now();
-  // The diagonal of such a matrix means nothing: its rows are equations in any order.
-  constexpr double least_symmetry = 0.5;  // a choice: structures have 1
-  if (!p.is_symmetric() && find_symmetry(p.matrix) < least_symmetry) permute_rows(p.matrix);
   p.rhs.assign(at(p.matrix.n), 0.0);
   for (std::size_t k = 0; k < p.matrix.row.size(); ++k) p.rhs[at(p.matrix.row[k])] += p.matrix.value[k];
-  add_blocks(p);
-  p.blocks_seconds = cpu_now() - start;
+  solve::MatrixBlocks blocks = solve::find_blocks(p.matrix);
+  p.graph = std::move(blocks.graph);
+  p.unknown_begin = std::move(blocks.unknown_begin);
+  p.place = std::move(blocks.place);
   return p;
 }
 

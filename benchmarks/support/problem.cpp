@@ -177,22 +177,8 @@ Problem make_problem(const std::string& name, const blocks::BlockGraph& graph,
 }
 
 double eval_backward_error(const SparseMatrix& a, const std::vector<double>& x, const std::vector<double>& b) {
-  std::vector<double> r = b, row_sum(at(a.n), 0.0);
-  double x_norm = 0.0, b_norm = 0.0, a_norm = 0.0, r_norm = 0.0;
-  for (int j = 0; j < a.n; ++j) {
-    if (!std::isfinite(x[at(j)])) return std::numeric_limits<double>::quiet_NaN();
-    x_norm = std::max(x_norm, std::abs(x[at(j)]));
-    for (int k = a.column_begin[at(j)]; k < a.column_begin[at(j) + 1]; ++k) {
-      r[at(a.row[at(k)])] -= a.value[at(k)] * x[at(j)];
-      row_sum[at(a.row[at(k)])] += std::abs(a.value[at(k)]);
-    }
-  }
-  for (std::size_t i = 0; i < r.size(); ++i) {
-    b_norm = std::max(b_norm, std::abs(b[i]));
-    a_norm = std::max(a_norm, row_sum[i]);
-    r_norm = std::max(r_norm, std::abs(r[i]));
-  }
-  return r_norm / (a_norm * x_norm + b_norm);
+  std::vector<double> residual;
+  return solve::backward_error(a, x.data(), b.data(), residual);
 }
 
 }  // namespace bough::bench

@@ -7,17 +7,11 @@
 
 #include "bough/blocks/block_graph.hpp"
 #include "bough/scene/scene.hpp"
+#include "bough/solve/sparse_columns.hpp"
 
 namespace bough::bench {
 
-/// Compressed sparse columns, rows ascending in each.
-struct SparseMatrix {
-  int n = 0;
-  std::vector<int> column_begin;  ///< n + 1
-  std::vector<int> row;
-  std::vector<double> value;
-  int num_entries() const { return static_cast<int>(row.size()); }
-};
+using SparseMatrix = solve::SparseColumns;
 
 enum class Values { unsymmetric, symmetric };
 
@@ -27,11 +21,10 @@ struct Problem {
   bool is_definite = false;  ///< symmetric and positive definite
   bool is_scaled = true;     ///< the diagonal is near one, so that no solver needs scaling
   blocks::BlockGraph graph;
-  std::vector<std::vector<double>> elements;  ///< row-major, by element
+  std::vector<std::vector<double>> elements;  ///< row-major, by element; empty where the matrix came from a file
   std::vector<int> unknown_begin;             ///< by block
-  std::vector<int> place;       ///< where the graph has an unknown of the matrix; empty: in the same place
-  double blocks_seconds = 0.0;  ///< CPU time for finding blocks and elements from the pattern of the matrix [s]
-  SparseMatrix matrix;          ///< all entries without exact zeros (an entry and its mirror are omitted together)
+  std::vector<int> place;  ///< where the graph has an unknown of the matrix; empty: in the same place
+  SparseMatrix matrix;     ///< all entries without exact zeros (an entry and its mirror are omitted together)
   std::vector<double> rhs;
   bool is_symmetric() const { return values == Values::symmetric; }
 };

@@ -1,20 +1,19 @@
-/// Blocks and elements of a sparse matrix, found from its pattern.
+#include "bough/solve/matrix_blocks.hpp"
+
 #include <algorithm>
-#include <cstdint>
 #include <map>
 #include <utility>
 
 #include "bough/blocks/at.hpp"
-#include "matrix_file.hpp"
 
-namespace bough::bench {
+namespace bough::solve {
 
 namespace {
 
 using Lists = std::vector<std::vector<int>>;
 
 /// Neighbours of every unknown in the pattern of A + A^T, ascending, without itself.
-Lists find_neighbours(const SparseMatrix& a) {
+Lists find_neighbours(const SparseColumns& a) {
   Lists near(at(a.n));
   for (int j = 0; j < a.n; ++j)
     for (int k = a.column_begin[at(j)]; k < a.column_begin[at(j) + 1]; ++k) {
@@ -30,7 +29,7 @@ Lists find_neighbours(const SparseMatrix& a) {
   return near;
 }
 
-std::vector<char> find_diagonal(const SparseMatrix& a) {
+std::vector<char> find_diagonal(const SparseColumns& a) {
   std::vector<char> has(at(a.n), 0);
   for (int j = 0; j < a.n; ++j)
     for (int k = a.column_begin[at(j)]; k < a.column_begin[at(j) + 1]; ++k)
@@ -178,50 +177,49 @@ Lists find_block_neighbours(const Lists& near, const Lists& blocks, const std::v
 
 }  // namespace
 
-void add_blocks(Problem& p) {
-  const SparseMatrix& a = p.matrix;
+MatrixBlocks find_blocks(const SparseColumns& a) {
+  MatrixBlocks out;
   const Lists near = find_neighbours(a);
   const std::vector<char> has_diagonal = find_diagonal(a);
   const Lists blocks = find_blocks(near, has_diagonal);
   std::vector<int> block_of(at(a.n));
-  p.graph = {};
-  p.unknown_begin.assign(1, 0);
-  p.place.assign(at(a.n), 0);
+  out.unknown_begin.assign(1, 0);
+  out.place.assign(at(a.n), 0);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     for (std::size_t k = 0; k < blocks[b].size(); ++k) {
       block_of[at(blocks[b][k])] = static_cast<int>(b);
-      p.place[at(blocks[b][k])] = p.unknown_begin.back() + static_cast<int>(k);
+      out.place[at(blocks[b][k])] = out.unknown_begin.back() + static_cast<int>(k);
     }
-    p.graph.block_size.push_back(static_cast<int>(blocks[b].size()));
-    p.graph.block_kind.push_back(has_diagonal[at(blocks[b].front())] != 0 ? blocks::BlockKind::motion
-                                                                          : blocks::BlockKind::multiplier);
-    p.unknown_begin.push_back(p.unknown_begin.back() + p.graph.block_size.back());
+    out.graph.block_size.push_back(static_cast<int>(blocks[b].size()));
+    out.graph.block_kind.push_back(has_diagonal[at(blocks[b].front())] != 0 ? blocks::BlockKind::motion
+                                                                            : blocks::BlockKind::multiplier);
+    out.unknown_begin.push_back(out.unknown_begin.back() + out.graph.block_size.back());
   }
-  const Cover cover(find_block_neighbours(near, blocks, block_of), p.graph.block_kind);
+  const Cover cover(find_block_neighbours(near, blocks, block_of), out.graph.block_kind);
 
   std::vector<std::map<int, int>> row_of_block;  // by element: first row of its blocks
-  std::vector<int> size;
-  p.elements.clear();
+  std::vector<std::int64_t> size;
   for (const std::vector<int>& element : cover.elements()) {
     int rows = 0;
     row_of_block.emplace_back();
     for (int b : element) {
       row_of_block.back()[b] = rows;
-      rows += p.graph.block_size[at(b)];
-      p.graph.element_blocks.push_back(b);
+      rows += out.graph.block_size[at(b)];
+      out.graph.element_blocks.push_back(b);
     }
-    p.graph.element_begin.push_back(static_cast<std::int64_t>(p.graph.element_blocks.size()));
+    out.graph.element_begin.push_back(static_cast<std::int64_t>(out.graph.element_blocks.size()));
     size.push_back(rows);
-    p.elements.emplace_back(at(rows) * at(rows), 0.0);
   }
   for (int j = 0; j < a.n; ++j)
     for (int k = a.column_begin[at(j)]; k < a.column_begin[at(j) + 1]; ++k) {
       const int i = a.row[at(k)], bi = block_of[at(i)], bj = block_of[at(j)];
-      const std::size_t e = at(cover.element_of(bi, bj));
-      const int row = row_of_block[e].at(bi) + p.place[at(i)] - p.unknown_begin[at(bi)];
-      const int column = row_of_block[e].at(bj) + p.place[at(j)] - p.unknown_begin[at(bj)];
-      p.elements[e][at(row) * at(size[e]) + at(column)] = a.value[at(k)];
+      const int e = cover.element_of(bi, bj);
+      const int row = row_of_block[at(e)].at(bi) + out.place[at(i)] - out.unknown_begin[at(bi)];
+      const int column = row_of_block[at(e)].at(bj) + out.place[at(j)] - out.unknown_begin[at(bj)];
+      out.element.push_back(e);
+      out.offset.push_back(row * size[at(e)] + column);
     }
+  return out;
 }
 
-}  // namespace bough::bench
+}  // namespace bough::solve
