@@ -63,7 +63,8 @@ void Constraints::series(const State& state, const motion::Vec6<double>* jerk, d
 Violations Constraints::violations(const State& state) const {
   using T = lanes::Taylor<double, 1>;
   // Signals may read any node.
-  const elements::Field f = plan_.signals_drive ? instant_.field(state) : instant_.field_of(state, nodes_, motions_);
+  const elements::Field f =
+      plan_.signals_drive ? instant_.field(state) : instant_.field_of(state, nodes_, motions_, &walker_);
   if (plan_.signals_drive) {
     const Instant::Series& series = laws_of(state, f, 0.0);
     for (std::size_t i = 0; i < series.size(); ++i) {

@@ -71,11 +71,11 @@ elements::Field Instant::field(const State& state, const elements::Slopes& slope
 }
 
 elements::Field Instant::field_of(const State& state, std::span<const int> nodes,
-                                  std::vector<elements::NodeMotion>& scratch) const {
+                                  std::vector<elements::NodeMotion>& scratch, const tree::Walker* walker) const {
   if (state.is_in_space()) return field(state);
   elements::Field f = surroundings(state, {}, true);
   scratch.resize(plan_.nodes.size());
-  copy_nodes_in_space(plan_, state, nodes, scratch);
+  copy_nodes_in_space(plan_, state, nodes, scratch, walker);
   f.nodes = scratch.data();
   return f;
 }

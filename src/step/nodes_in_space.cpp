@@ -26,6 +26,7 @@ struct Start {
   [[no_unique_address]] typename G::template Rotation<Pack> turn;
   motion::PositionPair<Pack, G::translations> x;
 };
+constexpr std::int64_t nodes_of_chunk = 8 * static_cast<std::int64_t>(nodes_in_lanes);
 template <class G>
 inline constexpr int start_numbers = sizeof(plan::NodeStartOn<G>) / sizeof(double);
 
@@ -95,17 +96,17 @@ elements::NodeLanes show(const Mat3<double>& axes, const Start<G>& start, const 
   return to;
 }
 
-/// Converts the nodes node(k) for k = 0 to count - 1.
+/// Converts the nodes node(k) for k = first to end - 1.
 template <class G, class Node>
-void show_nodes(const plan::Plan& plan, const NodesOn<G>& nodes, std::size_t count, Node&& node,
+void show_nodes(const plan::Plan& plan, const NodesOn<G>& nodes, std::size_t first, std::size_t end, Node&& node,
                 std::vector<elements::NodeMotion>& to) {
   static_assert(sizeof(Start<G>) == start_numbers<G> * sizeof(Pack));
   const plan::ModelOn<G>& model = std::get<plan::ModelOn<G>>(plan.model);
-  for (std::size_t first = 0; first < count; first += nodes_in_lanes) {
+  for (; first < end; first += nodes_in_lanes) {
     const double *starts[nodes_in_lanes], *motions[nodes_in_lanes];
     double* shown[nodes_in_lanes];
     for (std::size_t l = 0; l < nodes_in_lanes; ++l) {  // unused lanes repeat the last node
-      const std::size_t n = node(std::min(first + l, count - 1));
+      const std::size_t n = node(std::min(first + l, end - 1));
       starts[l] = reinterpret_cast<const double*>(&model.nodes[n]);
       motions[l] = reinterpret_cast<const double*>(&nodes.motion[n]);
       shown[l] = reinterpret_cast<double*>(&to[n]);
@@ -130,7 +131,7 @@ const std::vector<elements::NodeMotion>& nodes_in_space(const plan::Plan& plan, 
       if (shown.empty()) {
         shown.resize(nodes.motion.size());
         show_nodes(
-            plan, nodes, nodes.motion.size(), [](std::size_t k) { return k; }, shown);
+            plan, nodes, 0, nodes.motion.size(), [](std::size_t k) { return k; }, shown);
       }
       return shown;
     }
@@ -138,14 +139,20 @@ const std::vector<elements::NodeMotion>& nodes_in_space(const plan::Plan& plan, 
 }
 
 void copy_nodes_in_space(const plan::Plan& plan, const State& state, std::span<const int> which,
-                         std::vector<elements::NodeMotion>& to) {
+                         std::vector<elements::NodeMotion>& to, const tree::Walker* walker) {
   if (which.empty()) return;
   state.visit([&]<class G>(const NodesOn<G>& nodes) {
     const auto node = [which](std::size_t k) { return static_cast<std::size_t>(which[k]); };
-    if constexpr (std::is_same_v<G, Se3>)
-      for (std::size_t k = 0; k < which.size(); ++k) to[node(k)] = nodes.motion[node(k)];
-    else
-      show_nodes(plan, nodes, which.size(), node, to);
+    auto copy = [&](std::int64_t begin, std::int64_t end) {
+      if constexpr (std::is_same_v<G, Se3>)
+        for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
+          to[node(k)] = nodes.motion[node(k)];
+      else
+        show_nodes(plan, nodes, static_cast<std::size_t>(begin), static_cast<std::size_t>(end), node, to);
+    };
+    const auto count = static_cast<std::int64_t>(which.size());
+    if (walker == nullptr) return copy(0, count);
+    walker->for_each_chunk(count, nodes_of_chunk, tree::make_chunk(copy));
   });
 }
 

@@ -25,7 +25,7 @@ System::System(const plan::Plan& plan, const scene::Solver& solver, const tree::
       sums_(plan, places_, linear_, trimmed_.get()),
       elements_(plan, instant_, trimmed_.get(), sums_, linear_, walker),
       signals_(plan, instant_, places_, linear_),
-      round_off_(plan, places_, linear_, elements_, lengths_),
+      round_off_(plan, places_, linear_, lengths_, walker),
       corrections_(plan, places_, instant_, lengths_, linear_, node_order_, walker, clock_, counts_) {
   work_.rhs.assign(places_.size(), 0.0);
   work_.x = work_.rhs;

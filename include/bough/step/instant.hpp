@@ -37,9 +37,10 @@ class Instant {
   /// Gravity, laws and frames with the nodes of a state in space, whatever the group of the scene: what elements,
   /// sensors and balances in space evaluate. The field refers to the state.
   elements::Field field(const State& state, const elements::Slopes& slopes = {}, bool with_inertia = true) const;
-  /// The same with some of the nodes only; the others must not be read. scratch: holds these nodes.
-  elements::Field field_of(const State& state, std::span<const int> nodes,
-                           std::vector<elements::NodeMotion>& scratch) const;
+  /// The same with some of the nodes only; the others must not be read. scratch: holds these nodes. walker: null for
+  /// one thread.
+  elements::Field field_of(const State& state, std::span<const int> nodes, std::vector<elements::NodeMotion>& scratch,
+                           const tree::Walker* walker = nullptr) const;
   /// The same with the nodes on the group G, which must be SE(3) or the group of the scene.
   template <class G>
   elements::FieldOn<G, double> field_on(const State& state, const elements::Slopes& slopes = {},

@@ -34,7 +34,7 @@ class RoundOffMemory {
 class RoundOff {
  public:
   RoundOff(const plan::Plan& plan, const UnknownPlaces& places, const LinearSolution& linear,
-           const ElementEvaluation& elements, const ElementLengths& lengths);
+           const ElementLengths& lengths, const tree::Walker& walker);
 
   /// What round-off alone leaves in the residual.
   const ResidualSize& floor() const;
@@ -57,12 +57,13 @@ class RoundOff {
   const plan::Plan& plan_;
   const UnknownPlaces& places_;
   const LinearSolution& linear_;
-  const ElementEvaluation& elements_;
   const ElementLengths& lengths_;
+  tree::Walker walker_;
   mutable Estimate floor_, of_poses_;
   std::vector<char> is_length_;                 ///< by unknown: a displacement of a node
+  std::vector<std::int64_t> row_begin_;         ///< by element, into rows_
+  mutable std::vector<double> rows_;            ///< scratch: sums of the rows of elements
   mutable std::vector<double> sums_;            ///< scratch
-  mutable std::vector<std::int64_t> unknowns_;  ///< scratch
   RoundOffMemory met_;
 };
 

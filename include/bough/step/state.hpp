@@ -10,6 +10,7 @@
 #include "bough/motion/quaternion.hpp"
 #include "bough/plan/plan.hpp"
 #include "bough/step/node_vectors.hpp"
+#include "bough/tree/walker.hpp"
 
 namespace bough::step {
 
@@ -169,9 +170,9 @@ State make_initial_state(const plan::Plan& plan);
 /// of the node and n the normal of a plane among them (plan::NodeStartOn). Where nothing turns, R = R_0. Made once for
 /// a state, which keeps them until it is changed.
 const std::vector<elements::NodeMotion>& nodes_in_space(const plan::Plan& plan, const State& state);
-/// Some of them alone, in their places of `to`, which has room for all.
+/// Some of them alone, each named once, in their places of `to`, which has room for all. walker: null for one thread.
 void copy_nodes_in_space(const plan::Plan& plan, const State& state, std::span<const int> nodes,
-                         std::vector<elements::NodeMotion>& to);
+                         std::vector<elements::NodeMotion>& to, const tree::Walker* walker = nullptr);
 
 /// The poses, twists, multipliers and turns of a state for steps in space.
 State make_spatial(const plan::Plan& plan, const State& state);
