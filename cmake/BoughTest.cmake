@@ -24,13 +24,15 @@ function(bough_add_test_objects name)
 endfunction()
 
 # bough_add_test(name SOURCES a.cpp ... LAYERS layers ... LABEL unit|verification|slow [LIBS targets ...]
-#                [OBJECTS objects ...] [DEFS definitions ...] [TIMEOUT seconds of processor time] [NO_TRAPS] [NO_SANITIZERS])
+#                [OBJECTS objects ...] [DEFS definitions ...] [TIMEOUT seconds of processor time] [AS_WRITTEN] [NO_TRAPS]
+#                [NO_SANITIZERS])
 # makes one GoogleTest executable and one ctest entry FOLDER/name.Suite.case for each of its tests; the targets
 # tests_LABEL and tests_FOLDER_LABEL build all of them. The main function is ours: it unmasks floating-point traps
-# (tests/support/main.cpp); NO_TRAPS leaves them masked. NO_SANITIZERS leaves the test out of sanitized builds, for
+# (tests/support/main.cpp); NO_TRAPS leaves them masked. AS_WRITTEN: without optimisation, for tests that run for less
+# time than it would take to compile. NO_SANITIZERS leaves the test out of sanitized builds, for
 # tests that replace operator new as the sanitizers do. support/source_dir.hpp tells where data/ lies.
 function(bough_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 TEST "NO_TRAPS;NO_SANITIZERS" "LABEL;TIMEOUT" "SOURCES;LAYERS;LIBS;DEFS;OBJECTS")
+  cmake_parse_arguments(PARSE_ARGV 1 TEST "AS_WRITTEN;NO_TRAPS;NO_SANITIZERS" "LABEL;TIMEOUT" "SOURCES;LAYERS;LIBS;DEFS;OBJECTS")
   if(TEST_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "bough_add_test(${name}): unknown arguments ${TEST_UNPARSED_ARGUMENTS}")
   endif()
@@ -66,7 +68,9 @@ function(bough_add_test name)
   target_link_libraries(${target} PRIVATE ${TEST_LAYERS} ${TEST_LIBS} bough_base bough_warnings ${main})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_compile_definitions(${target} PRIVATE ${TEST_DEFS})
-  if(NOT TEST_LABEL STREQUAL "slow")
+  if(TEST_AS_WRITTEN)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O0>)
+  elseif(NOT TEST_LABEL STREQUAL "slow")
     target_compile_options(${target} PRIVATE ${BOUGH_TEST_OPTIONS})
   endif()
   bough_precompile(test ${target})
