@@ -93,7 +93,8 @@ def writes_scenes():
         status, told = run("new", kind)
         expect(status == 2 and "there already" in told, f"{file} is written over", told)
         expect(run("new", kind, "--out", "-")[1] == pathlib.Path(file).read_text(), f"new {kind} --out -")
-    expect(asked >= {"static", "static path", "dynamic", "modes", "inverse_dynamics"}, f"only {asked} are shown")
+    expect(asked >= {"static", "static path", "dynamic", "modes", "inverse_dynamics", "campbell", "buckling", "response",
+                     "linear_model"}, f"only {asked} are shown")
     status, told = run("new", "pendulm")
     expect(status == 2 and "'pendulum'" in told, "a misspelt kind", told)
 
