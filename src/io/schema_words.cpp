@@ -152,10 +152,34 @@ void visit_schemas(const VisitWord& visit) {
   WordWalk(motion_rules(), "motion", visit).walk();
 }
 
+/// "/bodies/0/kind" and "bodies[].kind" give "bodies[].kind".
+std::string place_of(std::string_view text) {
+  std::string place;
+  for (std::size_t begin = text.starts_with('/') ? 1 : 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('/', begin), text.size());
+    const std::string_view part = text.substr(begin, end - begin);
+    if (!part.empty() && part.find_first_not_of("0123456789") == std::string_view::npos)
+      place += "[]";
+    else
+      place += (place.empty() ? "" : ".") + std::string(part);
+    begin = end + 1;
+  }
+  return place;
+}
+
 }  // namespace
 
 std::vector<SchemaEntry> schema_entries(std::string_view word) {
   std::vector<SchemaEntry> entries;
+  if (word.find_first_of("/.[") != std::string_view::npos) {
+    const std::string place = place_of(word);
+    visit_schemas([&](const std::string&, SchemaEntry entry) {
+      const auto same = [&](const SchemaEntry& e) { return e.format == entry.format && e.about == entry.about; };
+      if (entry.place == place && std::none_of(entries.begin(), entries.end(), same))
+        entries.push_back(std::move(entry));
+    });
+    return entries;
+  }
   visit_schemas([&](const std::string& key, SchemaEntry entry) {
     // Sweeps and studies take parts of scenes, which are not told twice.
     const auto same = [&](const SchemaEntry& e) {

@@ -46,6 +46,8 @@ def explains():
         expect(run("help", word) == run("explain", word), f"help {word} differs from explain {word}")
     expect(run("help") == run("--help"), "help of no word")
     expect(run("explain", "")[0] == 2, "explain of an empty word")
+    for place in ("/springs/0/damping", "springs[].damping"):
+        expect(run("explain", place)[1].count("scene: springs[].damping\n") == 1, f"explain {place}", run("explain", place)[1])
     status, told = run("explain", "Lanczos")
     expect(status == 0 and "stands in" in told and "modes.md" in told, "a word of the text alone", told)
     status, told = run("explain", "stifness")
