@@ -2,9 +2,7 @@
 
 namespace bough::elements {
 
-using Beam3InPlane = BeamOn<motion::Se2, 3>;
-using LineLoad3InPlane = LineLoadOn<motion::Se2, 3>;
-BOUGH_INSTANTIATE_BOTH(Beam3InPlane)
-BOUGH_INSTANTIATE_BOTH(LineLoad3InPlane)
+BOUGH_INSTANTIATE_BOTH(BeamOn<motion::Se2, 3>)
+BOUGH_INSTANTIATE_BOTH(LineLoadOn<motion::Se2, 3>)
 
 }  // namespace bough::elements

@@ -66,7 +66,5 @@ CoordinateMotion eval_joint_coordinate(const Joint& joint, RowKind coordinate, c
 
 BOUGH_INSTANTIATE_ELEMENT(RigidBody)
 BOUGH_INSTANTIATE_ELEMENT(PointLoad)
-BOUGH_INSTANTIATE_ELEMENT(Spring)
-BOUGH_INSTANTIATE_ELEMENT(Bushing)
 
 }  // namespace bough::elements

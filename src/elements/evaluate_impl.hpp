@@ -122,8 +122,9 @@ void evaluate_rate(const E& e, const FieldOn<typename E::Group, double>& field,
 }  // namespace bough::elements
 
 /// Instantiates the drivers for one element type.
-#define BOUGH_INSTANTIATE_ELEMENT(E)                                                                            \
-  template void evaluate(const E&, const FieldOn<E::Group, double>&, const double*, double, double*, double*);  \
-  template void evaluate_rate(const E&, const FieldOn<E::Group, double>&,                                       \
-                              const SurroundingsOn<E::Group, lanes::Taylor<double, 1>>&, const double*, double, \
-                              const E::Group::Vector<double>*, double*);
+#define BOUGH_INSTANTIATE_ELEMENT(...)                                                                            \
+  template void evaluate(const __VA_ARGS__&, const FieldOn<__VA_ARGS__::Group, double>&, const double*, double,   \
+                         double*, double*);                                                                       \
+  template void evaluate_rate(const __VA_ARGS__&, const FieldOn<__VA_ARGS__::Group, double>&,                     \
+                              const SurroundingsOn<__VA_ARGS__::Group, lanes::Taylor<double, 1>>&, const double*, \
+                              double, const __VA_ARGS__::Group::Vector<double>*, double*);

@@ -4,8 +4,6 @@ namespace bough::elements {
 
 BOUGH_INSTANTIATE_LANES(RigidBody)
 BOUGH_INSTANTIATE_LANES(PointLoad)
-BOUGH_INSTANTIATE_LANES(Spring)
-BOUGH_INSTANTIATE_LANES(Bushing)
 BOUGH_INSTANTIATE_LANES(Joint)
 
 }  // namespace bough::elements

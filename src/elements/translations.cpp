@@ -5,7 +5,6 @@ namespace bough::elements {
 #define BOUGH_INSTANTIATE_TRANSLATIONS(N)                      \
   BOUGH_INSTANTIATE_BOTH(RigidBodyOn<motion::Translations<N>>) \
   BOUGH_INSTANTIATE_BOTH(PointLoadOn<motion::Translations<N>>) \
-  BOUGH_INSTANTIATE_BOTH(SpringOn<motion::Translations<N>>)    \
   BOUGH_INSTANTIATE_BOTH(JointOn<motion::Translations<N>>)
 BOUGH_INSTANTIATE_TRANSLATIONS(3)
 BOUGH_INSTANTIATE_TRANSLATIONS(1)

@@ -1,6 +1,7 @@
 #include "links.hpp"
 
 #include "bough/laws/make_law.hpp"
+#include "support/given.hpp"
 
 namespace lean {
 
@@ -66,27 +67,27 @@ void add_couplings(scene::Scene& s, const Links& l) {
       j.forces.push_back(f);
       s.joints.push_back(j);
     } else {
-      scene::Bushing b;
+      support::GivenBushing b;
       b.name = "bush" + std::to_string(k);
       b.first = first;
       b.second = second;
       b.stiffness = diagonal(1e4, 50.0);
       if (l.is_damped) b.damping = diagonal(10.0, 0.1);
-      s.bushings.push_back(b);
+      s.couplings.push_back(b);
     }
   }
 }
 
 void add_springs(scene::Scene& s, const Links& l) {
   for (int k = 0; k < l.count; ++k) {
-    scene::Spring p;
+    support::GivenSpring p;
     p.name = "spring" + std::to_string(k);
     p.first = at("", k * length, 1.0, l.in_plane ? 0.0 : 0.2);
     p.second = at(link_name(k), 0.0);
     p.stiffness = 40.0;
     p.rest_length = 0.9;
     p.damping = l.is_damped ? 0.5 : 0.0;
-    s.springs.push_back(p);
+    s.couplings.push_back(p);
   }
 }
 
@@ -133,7 +134,7 @@ scene::Scene make_links(const Links& l) {
 scene::Scene make_beads(bool are_points) {
   const Links l{.has_joints = false, .has_springs = false, .has_point_masses = are_points};
   scene::Scene s = make_links(l);
-  s.bushings.clear();
+  s.couplings.clear();
   scene::Node root;
   root.name = "root";
   s.nodes.push_back(root);
@@ -156,7 +157,7 @@ scene::Scene make_beads(bool are_points) {
 scene::Scene make_net() {
   Links l{.has_joints = false, .has_beams = false, .has_point_masses = true};
   scene::Scene s = make_links(l);
-  s.bushings.clear();
+  std::erase_if(s.couplings, [](const scene::Coupling& c) { return c.kind == &elements::kind_of<elements::Bushing>; });
   return s;
 }
 
