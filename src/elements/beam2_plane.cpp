@@ -2,7 +2,6 @@
 
 namespace bough::elements {
 
-BOUGH_INSTANTIATE_BOTH(BeamOn<motion::Se2, 2>)
-BOUGH_INSTANTIATE_BOTH(LineLoadOn<motion::Se2, 2>)
+BOUGH_EMIT(both_drivers, _of_beam2, std::tuple<BeamOn<motion::Se2, 2>, LineLoadOn<motion::Se2, 2>>)
 
 }  // namespace bough::elements

@@ -2,7 +2,6 @@
 
 namespace bough::elements {
 
-BOUGH_INSTANTIATE_BOTH(BeamOn<motion::Se2, 3>)
-BOUGH_INSTANTIATE_BOTH(LineLoadOn<motion::Se2, 3>)
+BOUGH_EMIT(both_drivers, _of_beam3, std::tuple<BeamOn<motion::Se2, 3>, LineLoadOn<motion::Se2, 3>>)
 
 }  // namespace bough::elements

@@ -2,7 +2,6 @@
 
 namespace bough::elements {
 
-BOUGH_INSTANTIATE_BOTH(BeamOn<motion::Se2, 4>)
-BOUGH_INSTANTIATE_BOTH(LineLoadOn<motion::Se2, 4>)
+BOUGH_EMIT(both_drivers, _of_beam4, std::tuple<BeamOn<motion::Se2, 4>, LineLoadOn<motion::Se2, 4>>)
 
 }  // namespace bough::elements

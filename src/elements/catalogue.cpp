@@ -49,7 +49,7 @@ constexpr auto kinds = kinds_of(static_cast<CatalogueOn<motion::Se3>*>(nullptr))
 }  // namespace
 
 template <class E>
-constexpr auto jet_drivers = drivers_if<E, !E::has_closed_tangent>();
+constexpr auto jet_drivers = detail::emitted_if<!E::has_closed_tangent>([]<class T = E>() { return both_drivers<T>; });
 BOUGH_EMIT_ON_EVERY_GROUP(jet_drivers, CatalogueOn)
 
 std::span<const scene::CouplingKind* const> coupling_kinds() { return kinds; }

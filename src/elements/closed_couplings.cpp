@@ -4,7 +4,9 @@
 namespace bough::elements {
 
 template <class E>
-constexpr auto closed_drivers = drivers_if<E, E::has_closed_tangent>();
+constexpr auto closed_drivers = detail::emitted_if<E::has_closed_tangent>([]<class T = E>() {
+  return both_drivers<T>;
+});
 BOUGH_EMIT_ON_EVERY_GROUP(closed_drivers, CatalogueOn)
 
 }  // namespace bough::elements

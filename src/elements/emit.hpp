@@ -8,14 +8,17 @@
 namespace bough::elements::detail {
 
 struct NothingToEmit {};
+/// What f returns, which is not called, nor compiled, if it is not wanted. f: a template without parameters.
+template <bool is_wanted, class F>
+constexpr auto emitted_if(F&& f) {
+  if constexpr (is_wanted)
+    return f();
+  else
+    return NothingToEmit{};
+}
 template <template <class> class Of, class... E>
 constexpr auto emit_for(const std::tuple<E...>*) {
-  return std::tuple{[] {
-    if constexpr (exists<E>)
-      return Of<E>::functions;
-    else
-      return NothingToEmit{};
-  }()...};
+  return std::tuple{emitted_if<exists<E>>([]<class T = E>() { return Of<T>::functions; })...};
 }
 
 }  // namespace bough::elements::detail

@@ -127,12 +127,9 @@ void eval_energies_lanes(const LaneElement<E>& e, const FieldOn<typename E::Grou
 }
 
 template <class E>
-constexpr auto energies_of_part = [] {
-  if constexpr (E::role == Role::load)
-    return detail::NothingToEmit{};
-  else
-    return std::tuple{&eval_energies<E>, &eval_energies_lanes<E>};
-}();
+constexpr auto energies_of_part = detail::emitted_if<E::role != Role::load>([]<class T = E>() {
+  return std::tuple{&eval_energies<T>, &eval_energies_lanes<T>};
+});
 BOUGH_EMIT_ON_EVERY_GROUP(energies_of_part, ElementsOn)
 
 }  // namespace bough::elements

@@ -1,7 +1,6 @@
 #pragma once
-/// Bodies of evaluate_lanes.hpp; included in the files that instantiate them.
+/// Bodies of evaluate_lanes.hpp; included in the files that emit them.
 #include "bough/elements/evaluate_lanes.hpp"
-#include "emit.hpp"
 #include "evaluate_impl.hpp"
 
 namespace bough::elements {
@@ -93,26 +92,11 @@ void evaluate_lanes(const E& e, const FieldOn<typename E::Group, LanePack>& fiel
   if (magnitude != nullptr) eval_magnitude(e, field, residual, magnitude);
 }
 
-/// The drivers of both forms of an element, to be emitted if it is wanted (emit.hpp).
-template <class E, bool is_wanted>
-constexpr auto drivers_if() {
-  if constexpr (is_wanted)
-    return std::tuple{&evaluate<E>,         &evaluate_rate<E>,     &may_share_lanes<E>,
-                      &has_same_numbers<E>, &make_lane_element<E>, &evaluate_lanes<LaneElement<E>>};
-  else
-    return detail::NothingToEmit{};
-}
+/// The drivers of evaluate_lanes.hpp, and those of both forms.
+template <class E>
+inline constexpr auto lane_drivers =
+    std::tuple{&may_share_lanes<E>, &has_same_numbers<E>, &make_lane_element<E>, &evaluate_lanes<LaneElement<E>>};
+template <class E>
+inline constexpr auto both_drivers = std::tuple{alone_drivers<E>, lane_drivers<E>};
 
 }  // namespace bough::elements
-
-/// Instantiates the lane form of one element type.
-#define BOUGH_INSTANTIATE_LANES(...)                                                                          \
-  template bool may_share_lanes(const __VA_ARGS__&, const __VA_ARGS__&);                                      \
-  template bool has_same_numbers(const __VA_ARGS__&, const __VA_ARGS__&);                                     \
-  template LaneElement<__VA_ARGS__> make_lane_element(const __VA_ARGS__* const*, int, const int*, int);       \
-  template void evaluate_lanes(const LaneElement<__VA_ARGS__>&, const FieldOn<__VA_ARGS__::Group, LanePack>&, \
-                               const LanePack*, const LanePack&, LanePack*, LanePack*, LanePack*);
-/// Both forms, alone and in lanes.
-#define BOUGH_INSTANTIATE_BOTH(...)      \
-  BOUGH_INSTANTIATE_ELEMENT(__VA_ARGS__) \
-  BOUGH_INSTANTIATE_LANES(__VA_ARGS__)

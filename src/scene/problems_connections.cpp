@@ -204,7 +204,7 @@ void check_coupling(ProblemList& list, std::size_t i) {
              "use a bushing");
   bool acts = false;
   std::size_t known = 0;
-  std::string strengths;
+  std::string strengths, last;
   std::set<std::string> idle;  // strengths that are zero
   for_each_field(c, [&](const CouplingField& field, std::span<const double> values, const Factor* factor) {
     ++known;
@@ -218,13 +218,16 @@ void check_coupling(ProblemList& list, std::size_t i) {
       list.add("couplings", i, field.name, values.size() == 1 ? text_of(values[0]) : "", fault);
     }
     if (!field.is_strength) return;
-    strengths += (strengths.empty() ? "" : " and ") + std::string(field.name);
+    if (!last.empty()) strengths += (strengths.empty() ? "" : ", ") + last;
+    last = field.name;
     acts |= !is_zero(values);
     if (is_zero(values)) idle.insert(field.name);
   });
   if (known != c.kind->fields.size())
     list.add("couplings", i, "values", c.name, std::string("these are not the numbers of a ") + c.kind->name);
-  if (!strengths.empty() && !acts) list.warn("couplings", i, "", "", "without " + strengths + " it does nothing");
+  if (!last.empty() && !acts)
+    list.warn("couplings", i, "", "",
+              "without " + (strengths.empty() ? "" : strengths + " and ") + last + " it does nothing");
 }
 
 }  // namespace

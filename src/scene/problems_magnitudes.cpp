@@ -79,7 +79,7 @@ void check_stiffness_sizes(ProblemList& list) {
     for_each_field(s.couplings[i], [&](const CouplingField& field, std::span<const double> values, const Factor*) {
       if (field.type == CouplingFieldType::number || field.type == CouplingFieldType::matrix)
         judge(list, "couplings", i, field.name, s.couplings[i].name, largest_entry(values),
-              {field.name, field.unit, odd});
+              {(std::string("the ") + field.name).c_str(), field.unit, odd});
     });
   for (std::size_t i = 0; i < s.joints.size(); ++i)
     for (std::size_t k = 0; k < s.joints[i].forces.size(); ++k) {

@@ -28,8 +28,8 @@ struct CouplingField {
   const char* about;                ///< a sentence, without the unit
   double low = 0.0;                 ///< of numbers: the smallest value
   bool is_low_open = false;         ///< the smallest value itself is not allowed
-  const char* standard = "";        ///< JSON text of the value where none is given; empty: it has to be given, but for
-                                    ///< what follows
+  const char* standard = "";        ///< JSON text of the value where none is given; empty: it has to be given, unless
+                                    ///< another default follows from its type or from the next line
   bool starts_as_distance = false;  ///< where none is given it is the distance of the two ends at the start
   bool is_strength = false;         ///< a coupling whose strengths are all zero does nothing
   const char* multiplied = "";      ///< of laws: the key of the matrix

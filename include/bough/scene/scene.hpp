@@ -298,7 +298,7 @@ struct Sensor {
   /// an acceleration_split only the axes.
   std::string frame;
   std::string signal;              ///< signal: its name
-  std::string part;                ///< force: a prescribed motion, spring, bushing, load or joint
+  std::string part;                ///< force: a prescribed motion, coupling, load or joint
   std::string subdomain;           ///< interface_force: the child to take at each level of the tree, as "0.1"
   std::vector<std::string> chain;  ///< acceleration_split: frames, nodes or bodies, each moving in the previous one
 };

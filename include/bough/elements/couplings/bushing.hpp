@@ -28,10 +28,10 @@ struct BushingOn : CouplingOn<G, C> {
       "at the start.",
       "One side.", "The other side."};
   static constexpr auto declared() {
-    return std::tuple{elements::matrix("stiffness", &BushingOn::stiffness, "N/m, N, N m/rad", "K."),
-                      elements::matrix("damping", &BushingOn::damping, "N s/m, N s, N m s/rad", "D, of rates."),
-                      law("stiffness_factor", &BushingOn::factor, "stiffness",
-                          "Factor of the stiffness that changes, but not of the damping.")};
+    return std::tuple{
+        elements::matrix("stiffness", &BushingOn::stiffness, "N/m, N or N m/rad", "Stiffness."),
+        elements::matrix("damping", &BushingOn::damping, "N s/m, N s or N m s/rad", "Damping of rates."),
+        law("stiffness_factor", &BushingOn::factor, "stiffness", "Factor of the stiffness alone, which changes.")};
   }
   template <class A, class B, class Visit>
   static void visit_data(A& a, B& b, Visit& visit) {

@@ -12,11 +12,12 @@ struct SpringOn : CouplingOn<G, C> {
 
   static constexpr DataAxes data_axes = DataAxes::none;
   static constexpr bool pulls_at_point = true, acts_along_line = true, has_closed_tangent = true;
-  static constexpr CouplingWords words{"springs", "spring", "Spring and damper along the line between two points.",
-                                       "One end.", "The other end."};
+  static constexpr CouplingWords words{
+      "springs", "spring", "Spring and damper along the line between two points: the tension k (l - l0) + c l'.",
+      "One end.", "The other end."};
   static constexpr auto declared() {
     return std::tuple{strength("stiffness", &SpringOn::stiffness, "N/m", "k."),
-                      distance("rest_length", &SpringOn::rest_length, "l0, where the spring has no tension."),
+                      distance("rest_length", &SpringOn::rest_length, "l0, the length without tension."),
                       strength("damping", &SpringOn::damping, "N s/m", "c.")};
   }
 };
