@@ -1,7 +1,10 @@
 #include "links.hpp"
 
+#include <algorithm>
+
+#include "bough/elements/catalogue.hpp"
 #include "bough/laws/make_law.hpp"
-#include "support/given.hpp"
+#include "bough/scene/parts.hpp"
 
 namespace lean {
 
@@ -67,12 +70,12 @@ void add_couplings(scene::Scene& s, const Links& l) {
       j.forces.push_back(f);
       s.joints.push_back(j);
     } else {
-      support::GivenBushing b;
-      b.name = "bush" + std::to_string(k);
+      scene::Coupling b =
+          scene::make_coupling(elements::kind_of<elements::Bushing>, "bush" + std::to_string(k), "", "");
       b.first = first;
       b.second = second;
-      b.stiffness = diagonal(1e4, 50.0);
-      if (l.is_damped) b.damping = diagonal(10.0, 0.1);
+      std::copy_n(diagonal(1e4, 50.0).m, 36, b.values.begin());
+      if (l.is_damped) std::copy_n(diagonal(10.0, 0.1).m, 36, b.values.begin() + 36);
       s.couplings.push_back(b);
     }
   }
@@ -80,14 +83,10 @@ void add_couplings(scene::Scene& s, const Links& l) {
 
 void add_springs(scene::Scene& s, const Links& l) {
   for (int k = 0; k < l.count; ++k) {
-    support::GivenSpring p;
-    p.name = "spring" + std::to_string(k);
-    p.first = at("", k * length, 1.0, l.in_plane ? 0.0 : 0.2);
-    p.second = at(link_name(k), 0.0);
-    p.stiffness = 40.0;
-    p.rest_length = 0.9;
-    p.damping = l.is_damped ? 0.5 : 0.0;
-    s.couplings.push_back(p);
+    s.couplings.push_back(scene::make_coupling(elements::kind_of<elements::Spring>, "spring" + std::to_string(k), "",
+                                               link_name(k), {40.0, 0.9, l.is_damped ? 0.5 : 0.0}));
+    s.couplings.back().first = at("", k * length, 1.0, l.in_plane ? 0.0 : 0.2);
+    s.couplings.back().second = at(link_name(k), 0.0);
   }
 }
 
