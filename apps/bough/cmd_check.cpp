@@ -20,24 +20,22 @@
 namespace bough::app {
 namespace {
 
-/// A list of a scene whose items are counted, as written.
+/// Lists of a scene whose items are counted, as written: those before and those after couplings.
 struct CountedList {
   std::string_view key;
   const char *one, *many;
 };
-constexpr CountedList counted_lists[] = {{"nodes", "node", "nodes"},
-                                         {"bodies", "body", "bodies"},
-                                         {"beams", "beam", "beams"},
-                                         {"joints", "joint", "joints"},
-                                         {"springs", "spring", "springs"},
-                                         {"bushings", "bushing", "bushings"},
-                                         {"actuators", "actuator", "actuators"},
-                                         {"loads", "load", "loads"},
-                                         {"motions", "prescribed motion", "prescribed motions"},
-                                         {"signals", "signal", "signals"},
-                                         {"sensors", "sensor", "sensors"},
-                                         {"expected", "expected figure", "expected figures"},
-                                         {"measures", "measure", "measures"}};
+constexpr CountedList structure[] = {{"nodes", "node", "nodes"},
+                                     {"bodies", "body", "bodies"},
+                                     {"beams", "beam", "beams"},
+                                     {"joints", "joint", "joints"}};
+constexpr CountedList others[] = {{"actuators", "actuator", "actuators"},
+                                  {"loads", "load", "loads"},
+                                  {"motions", "prescribed motion", "prescribed motions"},
+                                  {"signals", "signal", "signals"},
+                                  {"sensors", "sensor", "sensors"},
+                                  {"expected", "expected figure", "expected figures"},
+                                  {"measures", "measure", "measures"}};
 
 void count(std::string& text, std::size_t number, const char* one, const char* many) {
   if (number == 0) return;
@@ -47,8 +45,8 @@ void count(std::string& text, std::size_t number, const char* one, const char* m
 /// Whether a plan of the scene is made in no time.
 bool is_small(const scene::Scene& s) {
   constexpr std::size_t most = 5000;
-  std::size_t parts = s.nodes.size() + s.bodies.size() + s.joints.size() + s.springs.size() + s.bushings.size() +
-                      s.couplings.size() + s.point_loads.size() + s.line_loads.size() + s.frames.size();
+  std::size_t parts = s.nodes.size() + s.bodies.size() + s.joints.size() + s.couplings.size() + s.point_loads.size() +
+                      s.line_loads.size() + s.frames.size();
   for (const scene::Beam& b : s.beams)
     parts += static_cast<std::size_t>(b.elements) * static_cast<std::size_t>(b.order);
   return parts <= most;
@@ -120,12 +118,13 @@ int check(const CheckArguments& arguments) {
   const scene::Scene& s = file.scene;
   if (const std::size_t refused = print_mobility(arguments.scene, s); refused > 0) return refuse(refused);
   std::string parts;
-  for (const CountedList& list : counted_lists)
+  const auto count_list = [&](const CountedList& list) {
     if (const auto written = file.counts.find(list.key); written != file.counts.end())
       count(parts, written->second, list.one, list.many);
-  for (const scene::CouplingKind* kind : elements::coupling_kinds())
-    if (const auto written = file.counts.find(kind->list); written != file.counts.end())
-      count(parts, written->second, kind->name, kind->list);
+  };
+  for (const CountedList& list : structure) count_list(list);
+  for (const scene::CouplingKind* kind : elements::coupling_kinds()) count_list({kind->list, kind->name, kind->list});
+  for (const CountedList& list : others) count_list(list);
   std::cout << "ok:" << (parts.empty() ? " an empty scene" : parts) << "\n";
   return exit_done;
 }

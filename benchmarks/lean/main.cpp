@@ -13,7 +13,9 @@
 #include "../support/arguments.hpp"
 #include "../support/context.hpp"
 #include "../support/scenes.hpp"
+#include "bough/elements/catalogue.hpp"
 #include "bough/run/simulate.hpp"
+#include "bough/scene/parts.hpp"
 
 namespace {
 
@@ -92,15 +94,9 @@ scene::Body point_mass(const std::string& name, const scene::Vec3& at) {
   b.placement.pose.x = at;
   return b;
 }
-scene::Spring spring_between(const std::string& first, const std::string& second, double length) {
-  scene::Spring s;
-  s.name = first + "-" + second;
-  s.first.to = first;
-  s.second.to = second;
-  s.stiffness = 300.0;
-  s.rest_length = length;
-  s.damping = 0.05;
-  return s;
+scene::Coupling spring_between(const std::string& first, const std::string& second, double length) {
+  return scene::make_coupling(elements::kind_of<elements::Spring>, first + "-" + second, first, second,
+                              {300.0, length, 0.05});
 }
 /// A net of n x n masses with springs along its edges and one diagonal, hanging by two springs from the ground.
 scene::Scene make_net(int n) {
@@ -110,13 +106,13 @@ scene::Scene make_net(int n) {
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       s.bodies.push_back(point_mass(name(i, j), {{0.1 * i, 0.1 * j, 0.01 * ((i * j) % 3)}}));
-      if (i > 0) s.springs.push_back(spring_between(name(i - 1, j), name(i, j), 0.098));
-      if (j > 0) s.springs.push_back(spring_between(name(i, j - 1), name(i, j), 0.098));
-      if (i > 0 && j > 0) s.springs.push_back(spring_between(name(i - 1, j - 1), name(i, j), 0.139));
+      if (i > 0) s.couplings.push_back(spring_between(name(i - 1, j), name(i, j), 0.098));
+      if (j > 0) s.couplings.push_back(spring_between(name(i, j - 1), name(i, j), 0.098));
+      if (i > 0 && j > 0) s.couplings.push_back(spring_between(name(i - 1, j - 1), name(i, j), 0.139));
     }
   for (const int corner : {0, n - 1}) {
-    s.springs.push_back(spring_between("", name(corner, 0), 0.09));
-    s.springs.back().first.offset.x = {{0.1 * corner, 0.0, 0.1}};
+    s.couplings.push_back(spring_between("", name(corner, 0), 0.09));
+    s.couplings.back().first.offset.x = {{0.1 * corner, 0.0, 0.1}};
   }
   return s;
 }
@@ -126,7 +122,7 @@ scene::Scene make_row(int masses) {
   for (int k = 0; k < masses; ++k) {
     const std::string name = "m" + std::to_string(k);
     s.bodies.push_back(point_mass(name, {{0.1 * (k + 1), 0.0, 0.0}}));
-    s.springs.push_back(spring_between(k == 0 ? "" : "m" + std::to_string(k - 1), name, 0.1));
+    s.couplings.push_back(spring_between(k == 0 ? "" : "m" + std::to_string(k - 1), name, 0.1));
   }
   scene::InitialVelocity struck;
   struck.of = "m0";

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <string>
 
+#include "bough/elements/catalogue.hpp"
+#include "bough/scene/parts.hpp"
+
 namespace bough::bench {
 
 namespace {
@@ -57,12 +60,10 @@ void add_beam(scene::Scene& s, const std::string& start, const std::string& end,
 
 /// About as stiff as a bar of one pitch.
 void add_spring(scene::Scene& s, const std::string& node, const scene::Vec3& x) {
-  scene::Bushing b;
-  b.name = "support " + node;
-  b.first.offset.x = x;
-  b.second.to = node;
-  for (int i = 0; i < 6; ++i) b.stiffness(i, i) = i < 3 ? young * area / pitch : young * inertia / pitch;
-  s.bushings.push_back(b);
+  s.couplings.push_back(scene::make_coupling(elements::kind_of<elements::Bushing>, "support " + node, "", node));
+  s.couplings.back().first.offset.x = x;
+  for (std::size_t i = 0; i < 6; ++i)
+    s.couplings.back().values[7 * i] = i < 3 ? young * area / pitch : young * inertia / pitch;
 }
 
 void add_clamp(scene::Scene& s, const std::string& node, const scene::Vec3& x) {

@@ -2,7 +2,6 @@
 
 namespace bough::elements {
 
-BOUGH_INSTANTIATE_LANES(Beam<2>)
-BOUGH_INSTANTIATE_LANES(LineLoad<2>)
+BOUGH_EMIT(lane_drivers, _of_beam2, std::tuple<Beam<2>, LineLoad<2>>)
 
 }  // namespace bough::elements

@@ -2,9 +2,6 @@
 
 namespace bough::elements {
 
-using Beam2InPlane = BeamOn<motion::Se2, 2>;
-using LineLoad2InPlane = LineLoadOn<motion::Se2, 2>;
-BOUGH_INSTANTIATE_BOTH(Beam2InPlane)
-BOUGH_INSTANTIATE_BOTH(LineLoad2InPlane)
+BOUGH_EMIT(both_drivers, _of_beam2, std::tuple<BeamOn<motion::Se2, 2>, LineLoadOn<motion::Se2, 2>>)
 
 }  // namespace bough::elements

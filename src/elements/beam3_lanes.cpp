@@ -2,7 +2,6 @@
 
 namespace bough::elements {
 
-BOUGH_INSTANTIATE_LANES(Beam<3>)
-BOUGH_INSTANTIATE_LANES(LineLoad<3>)
+BOUGH_EMIT(lane_drivers, _of_beam3, std::tuple<Beam<3>, LineLoad<3>>)
 
 }  // namespace bough::elements

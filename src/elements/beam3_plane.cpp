@@ -2,9 +2,6 @@
 
 namespace bough::elements {
 
-using Beam3InPlane = BeamOn<motion::Se2, 3>;
-using LineLoad3InPlane = LineLoadOn<motion::Se2, 3>;
-BOUGH_INSTANTIATE_BOTH(Beam3InPlane)
-BOUGH_INSTANTIATE_BOTH(LineLoad3InPlane)
+BOUGH_EMIT(both_drivers, _of_beam3, std::tuple<BeamOn<motion::Se2, 3>, LineLoadOn<motion::Se2, 3>>)
 
 }  // namespace bough::elements

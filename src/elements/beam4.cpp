@@ -2,7 +2,6 @@
 
 namespace bough::elements {
 
-BOUGH_INSTANTIATE_ELEMENT(Beam<4>)
-BOUGH_INSTANTIATE_ELEMENT(LineLoad<4>)
+BOUGH_EMIT(alone_drivers, _of_beam4, std::tuple<Beam<4>, LineLoad<4>>)
 
 }  // namespace bough::elements

@@ -2,7 +2,6 @@
 
 namespace bough::elements {
 
-BOUGH_INSTANTIATE_LANES(Beam<4>)
-BOUGH_INSTANTIATE_LANES(LineLoad<4>)
+BOUGH_EMIT(lane_drivers, _of_beam4, std::tuple<Beam<4>, LineLoad<4>>)
 
 }  // namespace bough::elements

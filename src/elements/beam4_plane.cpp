@@ -2,9 +2,6 @@
 
 namespace bough::elements {
 
-using Beam4InPlane = BeamOn<motion::Se2, 4>;
-using LineLoad4InPlane = LineLoadOn<motion::Se2, 4>;
-BOUGH_INSTANTIATE_BOTH(Beam4InPlane)
-BOUGH_INSTANTIATE_BOTH(LineLoad4InPlane)
+BOUGH_EMIT(both_drivers, _of_beam4, std::tuple<BeamOn<motion::Se2, 4>, LineLoadOn<motion::Se2, 4>>)
 
 }  // namespace bough::elements

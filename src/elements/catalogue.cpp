@@ -1,11 +1,10 @@
-/// All that is compiled for the couplings of the catalogue, and their kinds as plain data.
+/// The kinds of the catalogue as plain data, and the drivers of couplings whose tangent is their residual run on jets.
 #include "bough/elements/catalogue.hpp"
 
 #include <array>
 
 #include "bough/elements/coupling_kinds.hpp"
 #include "bough/scene/scene.hpp"
-#include "emit.hpp"
 #include "lanes_impl.hpp"
 
 namespace bough::elements {
@@ -15,17 +14,17 @@ Mat6<double> eval_stiffness_at_start(const scene::Coupling& given, const Frame<d
                                      const Frame<double>& second) {
   E e;
   take_data(e, given.values.data(), first.R);
+  if constexpr (E::has_stiffness_matrix) return e.stiffness;
   NodeMotion nodes[2] = {};
   for (int k = 0; k < 2; ++k) {
-    const Frame<double>& H = k == 0 ? first : second;
     e.ports[k].node = k;
-    nodes[k].R = H.R;
-    nodes[k].x = motion::Vec3Pair::from(H.x);
+    nodes[k].R = first.R;
+    nodes[k].x = motion::Vec3Pair::from(k == 0 ? first.x : second.x);
     nodes[k].v = nodes[k].a = nodes[k].dq = Vec6<double>::zero();
   }
-  if (E::starts_aligned) {
+  if (E::start == scene::CouplingStart::apart) {
     e.ports[1].has_offset = true;
-    e.ports[1].offset.R = lanes::transpose_times(second.R, first.R);
+    e.ports[1].offset.R = lanes::transpose_times(first.R, second.R);
   }
   Field field;
   field.nodes = nodes;
@@ -47,14 +46,11 @@ constexpr std::array<const scene::CouplingKind*, sizeof...(E)> kinds_of(std::tup
 }
 constexpr auto kinds = kinds_of(static_cast<CatalogueOn<motion::Se3>*>(nullptr));
 
-template <class E>
-constexpr auto drivers_of_part =
-    std::tuple{&evaluate<E>,         &evaluate_rate<E>,     &may_share_lanes<E>,
-               &has_same_numbers<E>, &make_lane_element<E>, &evaluate_lanes<LaneElement<E>>};
-
 }  // namespace
 
-BOUGH_EMIT_FOR_CATALOGUE(drivers_of_part)
+template <class E>
+constexpr auto jet_drivers = detail::emitted_if<!E::has_closed_tangent>([]<class T = E>() { return both_drivers<T>; });
+BOUGH_EMIT_ON_EVERY_GROUP(jet_drivers, CatalogueOn)
 
 std::span<const scene::CouplingKind* const> coupling_kinds() { return kinds; }
 

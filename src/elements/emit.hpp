@@ -8,14 +8,17 @@
 namespace bough::elements::detail {
 
 struct NothingToEmit {};
+/// What f returns, which is not called, nor compiled, if it is not wanted. f: a template without parameters.
+template <bool is_wanted, class F>
+constexpr auto emitted_if(F&& f) {
+  if constexpr (is_wanted)
+    return f();
+  else
+    return NothingToEmit{};
+}
 template <template <class> class Of, class... E>
 constexpr auto emit_for(const std::tuple<E...>*) {
-  return std::tuple{[] {
-    if constexpr (exists<E>)
-      return Of<E>::functions;
-    else
-      return NothingToEmit{};
-  }()...};
+  return std::tuple{emitted_if<exists<E>>([]<class T = E>() { return Of<T>::functions; })...};
 }
 
 }  // namespace bough::elements::detail
@@ -30,9 +33,9 @@ constexpr auto emit_for(const std::tuple<E...>*) {
   [[gnu::used]] constexpr auto functions_of##where##_kept =                            \
       detail::emit_for<functions_of##where>(static_cast<const __VA_ARGS__*>(nullptr)); \
   }
-#define BOUGH_EMIT_FOR_CATALOGUE(functions_of)                               \
-  BOUGH_EMIT(functions_of, _in_space, CatalogueOn<motion::Se3>)              \
-  BOUGH_EMIT(functions_of, _in_plane, CatalogueOn<motion::Se2>)              \
-  BOUGH_EMIT(functions_of, _of_places, CatalogueOn<motion::Translations<3>>) \
-  BOUGH_EMIT(functions_of, _on_line, CatalogueOn<motion::Translations<1>>)
-#define BOUGH_EMIT_FOR_ALL(functions_of) BOUGH_EMIT(functions_of, _all, ElementsOn<motion::Se3>)
+/// ListOn: a template of such lists over groups.
+#define BOUGH_EMIT_ON_EVERY_GROUP(functions_of, ListOn)                 \
+  BOUGH_EMIT(functions_of, _in_space, ListOn<motion::Se3>)              \
+  BOUGH_EMIT(functions_of, _in_plane, ListOn<motion::Se2>)              \
+  BOUGH_EMIT(functions_of, _of_places, ListOn<motion::Translations<3>>) \
+  BOUGH_EMIT(functions_of, _on_line, ListOn<motion::Translations<1>>)

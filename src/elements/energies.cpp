@@ -88,20 +88,13 @@ void add_energies(const RigidBodyOn<G, C>& body, const PortMotionOn<G, S>* p,
   add_mass<G, S>(body.mass, C(1.0), p[0].H, anchor, sum);
 }
 
-template <class G, class S, class C>
-void add_energies(const SpringOn<G, C>& e, const PortMotionOn<G, S>* p, const typename G::template Translation<S>&,
-                  const SurroundingsOn<G, S>&, const C&, EnergiesOn<G, S>& sum) {
-  sum.strain = eval_strain_energy(e, p);
-}
-template <class G, class S, class C>
-void add_energies(const BushingOn<G, C>& e, const PortMotionOn<G, S>* p, const typename G::template Translation<S>&,
-                  const SurroundingsOn<G, S>& around, const C&, EnergiesOn<G, S>& sum) {
-  sum.strain = eval_strain_energy(e, p, around.laws);
-}
 template <IsCatalogued E, class G, class S>
 void add_energies(const E& e, const PortMotionOn<G, S>* p, const typename G::template Translation<S>&,
-                  const SurroundingsOn<G, S>&, const S&, EnergiesOn<G, S>& sum) {
-  sum.strain = eval_strain_energy(e, p);
+                  const SurroundingsOn<G, S>& around, const S&, EnergiesOn<G, S>& sum) {
+  if constexpr (requires { eval_strain_energy(e, p, around.laws); })
+    sum.strain = eval_strain_energy(e, p, around.laws);
+  else
+    sum.strain = eval_strain_energy(e, p);
 }
 template <class G, class S, class C>
 void add_energies(const JointOn<G, C>& e, const PortMotionOn<G, S>* p, const typename G::template Translation<S>&,
@@ -133,29 +126,10 @@ void eval_energies_lanes(const LaneElement<E>& e, const FieldOn<typename E::Grou
   out = energies_of<LaneElement<E>, typename E::Group, LanePack>(e, field, turns);
 }
 
-#define BOUGH_INSTANTIATE_ENERGIES(...)                                                                 \
-  template EnergiesOn<typename __VA_ARGS__::Group, double> eval_energies(                               \
-      const __VA_ARGS__&, const FieldOn<typename __VA_ARGS__::Group, double>&, double);                 \
-  template void eval_energies_lanes<__VA_ARGS__>(const LaneElement<__VA_ARGS__>&,                       \
-                                                 const FieldOn<typename __VA_ARGS__::Group, LanePack>&, \
-                                                 const LanePack&, EnergiesOn<typename __VA_ARGS__::Group, LanePack>&);
-#define BOUGH_INSTANTIATE_POINTS(G)          \
-  BOUGH_INSTANTIATE_ENERGIES(RigidBodyOn<G>) \
-  BOUGH_INSTANTIATE_ENERGIES(SpringOn<G>)    \
-  BOUGH_INSTANTIATE_ENERGIES(JointOn<G>)
-#define BOUGH_INSTANTIATE_BEAMS(G)         \
-  BOUGH_INSTANTIATE_POINTS(G)              \
-  BOUGH_INSTANTIATE_ENERGIES(BushingOn<G>) \
-  BOUGH_INSTANTIATE_ENERGIES(BeamOn<G, 2>) \
-  BOUGH_INSTANTIATE_ENERGIES(BeamOn<G, 3>) \
-  BOUGH_INSTANTIATE_ENERGIES(BeamOn<G, 4>)
-
 template <class E>
-constexpr auto energies_of_part = std::tuple{&eval_energies<E>, &eval_energies_lanes<E>};
-BOUGH_EMIT_FOR_CATALOGUE(energies_of_part)
-BOUGH_INSTANTIATE_BEAMS(motion::Se3)
-BOUGH_INSTANTIATE_BEAMS(motion::Se2)
-BOUGH_INSTANTIATE_POINTS(motion::Translations<3>)
-BOUGH_INSTANTIATE_POINTS(motion::Translations<1>)
+constexpr auto energies_of_part = detail::emitted_if<E::role != Role::load>([]<class T = E>() {
+  return std::tuple{&eval_energies<T>, &eval_energies_lanes<T>};
+});
+BOUGH_EMIT_ON_EVERY_GROUP(energies_of_part, ElementsOn)
 
 }  // namespace bough::elements

@@ -64,9 +64,6 @@ CoordinateMotion eval_joint_coordinate(const Joint& joint, RowKind coordinate, c
   return {value, lanes::dot(motion::wrench_vector(gradient), b.v - motion::inverse_adjoint_times(H, a.v))};
 }
 
-BOUGH_INSTANTIATE_ELEMENT(RigidBody)
-BOUGH_INSTANTIATE_ELEMENT(PointLoad)
-BOUGH_INSTANTIATE_ELEMENT(Spring)
-BOUGH_INSTANTIATE_ELEMENT(Bushing)
+BOUGH_EMIT(alone_drivers, _of_points, std::tuple<RigidBody, PointLoad>)
 
 }  // namespace bough::elements

@@ -2,6 +2,7 @@
 /// Bodies of the drivers in evaluate.hpp; included once per element type, in the file that instantiates it.
 #include "bough/lanes/taylor.hpp"
 #include "driver.hpp"
+#include "emit.hpp"
 
 namespace bough::elements {
 
@@ -119,11 +120,8 @@ void evaluate_rate(const E& e, const FieldOn<typename E::Group, double>& field,
   for (int k = 0; k < num_multipliers(e); ++k) residual_rate[places.forces + k] = rows[k].c[1];
 }
 
-}  // namespace bough::elements
+/// The drivers of evaluate.hpp, to be emitted.
+template <class E>
+inline constexpr auto alone_drivers = std::tuple{&evaluate<E>, &evaluate_rate<E>};
 
-/// Instantiates the drivers for one element type.
-#define BOUGH_INSTANTIATE_ELEMENT(E)                                                                            \
-  template void evaluate(const E&, const FieldOn<E::Group, double>&, const double*, double, double*, double*);  \
-  template void evaluate_rate(const E&, const FieldOn<E::Group, double>&,                                       \
-                              const SurroundingsOn<E::Group, lanes::Taylor<double, 1>>&, const double*, double, \
-                              const E::Group::Vector<double>*, double*);
+}  // namespace bough::elements

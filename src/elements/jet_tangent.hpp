@@ -32,8 +32,9 @@ PortMotionOn<G, T> vary(const PortMotionOn<G, T>& p, const PortSlopesOn<G, S>& s
 /// One port after the other is varied, so that jets are as short as can be. The residual is that of its own source on
 /// plain numbers: jets round some products otherwise.
 template <IsCatalogued E, class G, class S, class Put>
-void eval_tangent(const E& e, const PortMotionOn<G, S>* p, const PortSlopesOn<G, S>* ports,
-                  const SurroundingsOn<G, S>& around, S* residual, const Put& put) {
+requires(!E::has_closed_tangent) void eval_tangent(const E& e, const PortMotionOn<G, S>* p,
+                                                   const PortSlopesOn<G, S>* ports, const SurroundingsOn<G, S>& around,
+                                                   S* residual, const Put& put) {
   constexpr int P = E::num_ports, dof = G::dof;
   using T = lanes::Jet<S, dof>;
   eval_residual(e, p, around, residual);

@@ -2,6 +2,6 @@
 
 namespace bough::elements {
 
-BOUGH_INSTANTIATE_ELEMENT(Joint)
+BOUGH_EMIT(alone_drivers, _of_joints, std::tuple<Joint>)
 
 }  // namespace bough::elements

@@ -1,7 +1,7 @@
 #pragma once
 /// Tangent of joints.
 #include "bough/elements/joint.hpp"
-#include "relative_force.hpp"
+#include "bough/elements/relative_force.hpp"
 
 namespace bough::elements {
 

@@ -2,10 +2,6 @@
 
 namespace bough::elements {
 
-BOUGH_INSTANTIATE_LANES(RigidBody)
-BOUGH_INSTANTIATE_LANES(PointLoad)
-BOUGH_INSTANTIATE_LANES(Spring)
-BOUGH_INSTANTIATE_LANES(Bushing)
-BOUGH_INSTANTIATE_LANES(Joint)
+BOUGH_EMIT(lane_drivers, _of_points, std::tuple<RigidBody, PointLoad, Joint>)
 
 }  // namespace bough::elements

@@ -1,5 +1,5 @@
 #pragma once
-/// Bodies of evaluate_lanes.hpp; included in the files that instantiate them.
+/// Bodies of evaluate_lanes.hpp; included in the files that emit them.
 #include "bough/elements/evaluate_lanes.hpp"
 #include "evaluate_impl.hpp"
 
@@ -92,16 +92,11 @@ void evaluate_lanes(const E& e, const FieldOn<typename E::Group, LanePack>& fiel
   if (magnitude != nullptr) eval_magnitude(e, field, residual, magnitude);
 }
 
-}  // namespace bough::elements
+/// The drivers of evaluate_lanes.hpp, and those of both forms.
+template <class E>
+inline constexpr auto lane_drivers =
+    std::tuple{&may_share_lanes<E>, &has_same_numbers<E>, &make_lane_element<E>, &evaluate_lanes<LaneElement<E>>};
+template <class E>
+inline constexpr auto both_drivers = std::tuple{alone_drivers<E>, lane_drivers<E>};
 
-/// Instantiates the lane form of one element type.
-#define BOUGH_INSTANTIATE_LANES(E)                                                                         \
-  template bool may_share_lanes(const E&, const E&);                                                       \
-  template bool has_same_numbers(const E&, const E&);                                                      \
-  template LaneElement<E> make_lane_element(const E* const*, int, const int*, int);                        \
-  template void evaluate_lanes(const LaneElement<E>&, const FieldOn<E::Group, LanePack>&, const LanePack*, \
-                               const LanePack&, LanePack*, LanePack*, LanePack*);
-/// Both forms, alone and in lanes.
-#define BOUGH_INSTANTIATE_BOTH(E) \
-  BOUGH_INSTANTIATE_ELEMENT(E)    \
-  BOUGH_INSTANTIATE_LANES(E)
+}  // namespace bough::elements

@@ -143,6 +143,6 @@ Vec6<double> eval_reaction(const Joint& joint, const Field& field, const double*
 
 template <class E>
 constexpr auto measure_of_part = &measure<E>;
-BOUGH_EMIT_FOR_ALL(measure_of_part)
+BOUGH_EMIT(measure_of_part, _all, ElementsOn<motion::Se3>)
 
 }  // namespace bough::elements

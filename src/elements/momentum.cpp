@@ -192,40 +192,8 @@ void evaluate_rows(const JointOn<G>& joint, const FieldOn<G, double>& field, dou
   template void evaluate_rows<G>(const JointOn<G>&, const FieldOn<G, double>&, double, double*, double*);
 BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE_ROWS)
 
-#define BOUGH_INSTANTIATE_MOMENTUM(E)                                                              \
-  template void evaluate_momentum(const E&, const FieldFor<E>&, double, double, double*, double*); \
-  template void add_elastic_mass(const E&, const FieldFor<E>&, double, double*);                   \
-  template void add_gyroscopic(const E&, const FieldFor<E>&, double, double*);
-#define BOUGH_INSTANTIATE_MOMENTA(G)         \
-  BOUGH_INSTANTIATE_MOMENTUM(RigidBodyOn<G>) \
-  BOUGH_INSTANTIATE_MOMENTUM(JointOn<G>)     \
-  BOUGH_INSTANTIATE_MOMENTUM(SpringOn<G>)    \
-  BOUGH_INSTANTIATE_MOMENTUM(PointLoadOn<G>)
-BOUGH_FOR_EVERY_GROUP(BOUGH_INSTANTIATE_MOMENTA)
-namespace {
-template <class G>
-struct TurningElementsOn {
-  using Beam2 = BeamOn<G, 2>;
-  using Beam3 = BeamOn<G, 3>;
-  using Beam4 = BeamOn<G, 4>;
-  using Load2 = LineLoadOn<G, 2>;
-  using Load3 = LineLoadOn<G, 3>;
-  using Load4 = LineLoadOn<G, 4>;
-};
-}  // namespace
-#define BOUGH_INSTANTIATE_TURNING_MOMENTA(G)              \
-  BOUGH_INSTANTIATE_MOMENTUM(TurningElementsOn<G>::Beam2) \
-  BOUGH_INSTANTIATE_MOMENTUM(TurningElementsOn<G>::Beam3) \
-  BOUGH_INSTANTIATE_MOMENTUM(TurningElementsOn<G>::Beam4) \
-  BOUGH_INSTANTIATE_MOMENTUM(BushingOn<G>)                \
-  BOUGH_INSTANTIATE_MOMENTUM(TurningElementsOn<G>::Load2) \
-  BOUGH_INSTANTIATE_MOMENTUM(TurningElementsOn<G>::Load3) \
-  BOUGH_INSTANTIATE_MOMENTUM(TurningElementsOn<G>::Load4)
-BOUGH_INSTANTIATE_TURNING_MOMENTA(motion::Se3)
-BOUGH_INSTANTIATE_TURNING_MOMENTA(motion::Se2)
-
 template <class E>
 constexpr auto momenta_of_part = std::tuple{&evaluate_momentum<E>, &add_elastic_mass<E>, &add_gyroscopic<E>};
-BOUGH_EMIT_FOR_CATALOGUE(momenta_of_part)
+BOUGH_EMIT_ON_EVERY_GROUP(momenta_of_part, ElementsOn)
 
 }  // namespace bough::elements

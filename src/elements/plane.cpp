@@ -2,10 +2,7 @@
 
 namespace bough::elements {
 
-BOUGH_INSTANTIATE_BOTH(RigidBodyOn<motion::Se2>)
-BOUGH_INSTANTIATE_BOTH(PointLoadOn<motion::Se2>)
-BOUGH_INSTANTIATE_BOTH(SpringOn<motion::Se2>)
-BOUGH_INSTANTIATE_BOTH(BushingOn<motion::Se2>)
-BOUGH_INSTANTIATE_BOTH(JointOn<motion::Se2>)
+BOUGH_EMIT(both_drivers, _in_plane,
+           std::tuple<RigidBodyOn<motion::Se2>, PointLoadOn<motion::Se2>, JointOn<motion::Se2>>)
 
 }  // namespace bough::elements

@@ -2,12 +2,9 @@
 
 namespace bough::elements {
 
-#define BOUGH_INSTANTIATE_TRANSLATIONS(N)                      \
-  BOUGH_INSTANTIATE_BOTH(RigidBodyOn<motion::Translations<N>>) \
-  BOUGH_INSTANTIATE_BOTH(PointLoadOn<motion::Translations<N>>) \
-  BOUGH_INSTANTIATE_BOTH(SpringOn<motion::Translations<N>>)    \
-  BOUGH_INSTANTIATE_BOTH(JointOn<motion::Translations<N>>)
-BOUGH_INSTANTIATE_TRANSLATIONS(3)
-BOUGH_INSTANTIATE_TRANSLATIONS(1)
+template <int N, class G = motion::Translations<N>>
+using ElementsOfPoints = std::tuple<RigidBodyOn<G>, PointLoadOn<G>, JointOn<G>>;
+BOUGH_EMIT(both_drivers, _of_places, ElementsOfPoints<3>)
+BOUGH_EMIT(both_drivers, _on_line, ElementsOfPoints<1>)
 
 }  // namespace bough::elements

@@ -8,6 +8,7 @@
 #include "bough/laws/formula.hpp"
 #include "bough/laws/law_error.hpp"
 #include "bough/laws/make_law.hpp"
+#include "bough/scene/couplings.hpp"
 #include "bough/scene/signals.hpp"
 #include "read_scene_impl.hpp"
 
@@ -114,17 +115,18 @@ std::vector<std::string> add_tension(const Tension& tension, const std::string& 
 }
 
 /// A spring as a strut of its name, with efforts that signals give besides its own tension.
-scene::Joint strut_of(const scene::Spring& s, const std::vector<std::string>& efforts) {
+scene::Joint strut_of(const scene::Coupling& spring, const scene::LineForce& own,
+                      const std::vector<std::string>& efforts) {
   scene::Joint strut;
-  strut.name = s.name;
+  strut.name = spring.name;
   strut.kind = scene::JointKind::strut;
-  strut.first = s.first;
-  strut.second = s.second;
+  strut.first = spring.first;
+  strut.second = spring.second;
   for (const std::string& effort : efforts)
-    strut.forces.push_back({"displacement", 0.0, s.rest_length, 0.0, {}, effort});
+    strut.forces.push_back({"displacement", 0.0, own.rest_length, 0.0, {}, effort});
   if (!efforts.empty()) {
-    strut.forces.front().stiffness = s.stiffness;
-    strut.forces.front().damping = s.damping;
+    strut.forces.front().stiffness = own.stiffness;
+    strut.forces.front().damping = own.damping;
   }
   return strut;
 }
@@ -163,21 +165,22 @@ std::string Converter::signal_of(const Value& v, const std::string& at, const st
 ///   tension = k (l - l_0) + c l' + added
 /// rest_law, stiffness_factor: added = factor k (l - rest) - k (l - l_0), whose work is counted as that of a drive.
 /// force_law: what it has at rate 0 is a law of the length, which stores its energy; work is counted for the rest.
-void Converter::driven_spring(const Value& v, const std::string& at, const scene::Spring& s) {
+void Converter::driven_spring(const Value& v, const std::string& at, const scene::Coupling& spring) {
+  const scene::LineForce own = scene::line_force_of(spring).value();
   const std::string stem =
-      (scene::is_signal_name(s.name) ? s.name : "spring_" + std::to_string(scene.joints.size())) + "_";
+      (scene::is_signal_name(spring.name) ? spring.name : "spring_" + std::to_string(scene.joints.size())) + "_";
   const auto named = [this, &stem](const char* end) { return unused_signal_name(stem + end); };
   std::vector<scene::Signal> made(1);
   scene::Signal& length = made.front();
   length.kind = SignalKind::joint_displacement;
   length.name = named("length");
-  length.joint = s.name;
+  length.joint = spring.name;
   std::vector<std::string> efforts;
   if (const Value* law_given = v.find("force_law")) {
     const std::string at_law = at + "/force_law";
     try {
       if (const Value* formula = law_given->is(JsonKind::object) ? law_given->find("expression") : nullptr)
-        efforts = add_tension(read_tension(formula->text, s.rest_length, known_signals_), s.name, named, made);
+        efforts = add_tension(read_tension(formula->text, own.rest_length, known_signals_), spring.name, named, made);
       else
         efforts = {add_elastic(law(*law_given, at_law), named, made)};
     } catch (const laws::LawError& e) {
@@ -195,7 +198,7 @@ void Converter::driven_spring(const Value& v, const std::string& at, const scene
       if (std::find(force.inputs.begin(), force.inputs.end(), name) == force.inputs.end()) force.inputs.push_back(name);
       return name;
     };
-    const std::string k = in_brackets(s.stiffness), rest_given = in_brackets(s.rest_length);
+    const std::string k = in_brackets(own.stiffness), rest_given = in_brackets(own.rest_length);
     const std::string of_factor =
         factor != nullptr ? input(signal_of(*factor, at + "/stiffness_factor", stem + "factor")) : "1";
     const std::string of_rest = rest != nullptr ? input(signal_of(*rest, at + "/rest_law", stem + "rest")) : rest_given;
@@ -206,7 +209,7 @@ void Converter::driven_spring(const Value& v, const std::string& at, const scene
     efforts = {force.name};
     made.push_back(std::move(force));
   }
-  add(scene.joints, "joints", strut_of(s, efforts), at);
+  add(scene.joints, "joints", strut_of(spring, own, efforts), at);
   for (scene::Signal& signal : made) add_signal(std::move(signal), at);
 }
 

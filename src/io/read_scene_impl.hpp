@@ -77,8 +77,6 @@ class Converter : private ValueConverter {
                                            const Side& a, const Side& b);
   void place_sides(const Value& v, const std::string& at, const scene::JointType& type, Side& a, Side& b);
   void joint(const Value& v, const std::string& at);
-  void spring(const Value& v, const std::string& at);
-  void bushing(const Value& v, const std::string& at);
   void coupling(const scene::CouplingKind& kind, const Value& v, const std::string& at);
 
   // Signals (read_scene_signals.cpp).
@@ -107,7 +105,7 @@ class Converter : private ValueConverter {
   };
   void need_signal(const std::string& name, const std::string& at);
   std::string signal_of(const Value& v, const std::string& at, const std::string& name);
-  void driven_spring(const Value& v, const std::string& at, const scene::Spring& s);
+  void driven_spring(const Value& v, const std::string& at, const scene::Coupling& spring);
   void driven_gravity(const Value& v);
   void weigh();
 
@@ -178,7 +176,7 @@ class Converter : private ValueConverter {
   std::vector<std::string> signal_names_;                  ///< of all signals of the document
   std::unordered_set<std::string> known_signals_;          ///< the same, to look them up
   std::unordered_set<std::string> taken_signal_names_;     ///< of these and of those that the reader makes
-  std::unordered_set<std::string> springs_;                ///< names of all springs of the document
+  std::unordered_set<std::string> springs_;                ///< names of all of the document that may be struts
   std::unordered_map<std::string, std::size_t> joint_of_;  ///< first joint of each name, of those indexed so far
   std::size_t num_joints_indexed_ = 0;
   std::unordered_set<std::string> defective_names_;  ///< of those indexed so far

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <iterator>
 
 #include "bough/motion/se3.hpp"
 #include "bough/scene/components.hpp"
@@ -172,50 +173,46 @@ void Converter::joint(const Value& v, const std::string& at) {
   add(scene.joints, "joints", std::move(j), at);
 }
 
-void Converter::spring(const Value& v, const std::string& at) {
-  scene::Spring s;
-  s.name = v.find("name")->text;
-  s.first = attachment(*v.find("first"), at + "/first");
-  s.second = attachment(*v.find("second"), at + "/second");
-  s.stiffness = v.find("stiffness")->number;
-  s.damping = v.find("damping")->number;
-  const auto a = poses_->of(s.first), b = poses_->of(s.second);
-  s.rest_length = number_or(v, "rest_length", a && b ? norm(b->x - a->x) : 0.0);
-  for (const char* key : {"rest_law", "stiffness_factor", "force_law"})
-    if (v.find(key) != nullptr) return driven_spring(v, at, s);
-  add(scene.springs, "springs", std::move(s), at);
-}
-
-void Converter::bushing(const Value& v, const std::string& at) {
-  scene::Bushing b;
-  b.name = v.find("name")->text;
-  Side first = side(*v.find("first"), at + "/first"), second = side(*v.find("second"), at + "/second");
-  const auto H = poses_->of(std::string_view(first.to.to));
-  place_sides(v, at, scene::type_of(scene::JointKind::fixed), first, second);
-  if (!first.has_rotation && H) first.to.offset.R = scene::Mat3::identity();  // its own axes, not the second's
-  b.first = first.to;
-  b.second = second.to;
-  if (const Value* k = v.find("stiffness")) b.stiffness = matrix6(*k);
-  if (const Value* d = v.find("damping")) b.damping = matrix6(*d);
-  if (const Value* k = v.find("stiffness_factor")) b.factor = law_or_signal(*k, at + "/stiffness_factor", b.signal);
-  add(scene.bushings, "bushings", std::move(b), at);
-}
-
+/// A coupling whose ends are equal frames at the start may have a place of its own, as a joint has.
 void Converter::coupling(const scene::CouplingKind& kind, const Value& v, const std::string& at) {
   scene::Coupling c;
   c.kind = &kind;
   c.name = v.find("name")->text;
-  c.first = attachment(*v.find("first"), at + "/first");
-  c.second = attachment(*v.find("second"), at + "/second");
-  for (const scene::CouplingField& field : kind.fields) {
-    const Value& given = *v.find(field.name);  // required, or with a default of the schema
-    if (field.type == scene::CouplingFieldType::number) {
-      c.values.push_back(given.number);
-      continue;
-    }
-    const Vec3 direction = vector(given);
-    c.values.insert(c.values.end(), direction.v, direction.v + 3);
+  Side first = side(*v.find("first"), at + "/first"), second = side(*v.find("second"), at + "/second");
+  if (kind.start == scene::CouplingStart::frame) {
+    place_sides(v, at, scene::type_of(scene::JointKind::fixed), first, second);
+    if (!first.has_rotation && poses_->of(std::string_view(first.to.to)))
+      first.to.offset.R = scene::Mat3::identity();  // its own axes, not the second's
   }
+  c.first = first.to;
+  c.second = second.to;
+  const auto add_numbers = [&c](const auto& from) {
+    c.values.insert(c.values.end(), std::begin(from), std::end(from));
+  };
+  for (const scene::CouplingField& field : kind.fields) {
+    const Value* given = v.find(field.name);  // there, if it is required or has a default in the schema
+    switch (field.type) {
+      case scene::CouplingFieldType::number: {
+        const auto a = poses_->of(c.first), b = poses_->of(c.second);
+        c.values.push_back(given != nullptr ? given->number : a && b ? norm(b->x - a->x) : 0.0);
+        break;
+      }
+      case scene::CouplingFieldType::direction:
+      case scene::CouplingFieldType::axis:
+        add_numbers(vector(*given).v);
+        break;
+      case scene::CouplingFieldType::matrix:
+        add_numbers((given != nullptr ? matrix6(*given) : scene::Mat6::zero()).m);
+        break;
+      case scene::CouplingFieldType::law: {
+        scene::Factor& factor = c.factors.emplace_back();
+        if (given != nullptr) factor.law = law_or_signal(*given, at + "/" + field.name, factor.signal);
+      }
+    }
+  }
+  if (kind.acts_along_line)
+    for (const char* key : {"rest_law", "stiffness_factor", "force_law"})
+      if (v.find(key) != nullptr) return driven_spring(v, at, c);
   add(scene.couplings, "couplings", std::move(c), at);
 }
 

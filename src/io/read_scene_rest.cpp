@@ -336,11 +336,9 @@ void Converter::convert() {
   warn_of_thick_beams();
   tell_meshes();
   each("joints", &Converter::joint);
-  each("springs", &Converter::spring);
-  each("actuators", &Converter::actuator);
-  each("bushings", &Converter::bushing);
   for (const scene::CouplingKind* kind : elements::coupling_kinds())
     each(kind->list, [&](const Value& v, const std::string& at) { coupling(*kind, v, at); });
+  each("actuators", &Converter::actuator);
   each("loads", &Converter::load);
   each("motions", &Converter::motion);
   each("initial_velocities", &Converter::initial_velocity);

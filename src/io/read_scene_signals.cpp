@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "bough/elements/coupling_kinds.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/laws/formula.hpp"
 #include "bough/laws/law_error.hpp"
@@ -36,7 +37,9 @@ void Converter::find_signal_names() {
     });
   known_signals_.insert(signal_names_.begin(), signal_names_.end());
   taken_signal_names_ = known_signals_;
-  for_each_name(root_.find("springs"), [this](const std::string& name) { springs_.insert(name); });
+  for (const scene::CouplingKind* kind : elements::coupling_kinds())
+    if (kind->acts_along_line)
+      for_each_name(root_.find(kind->list), [this](const std::string& name) { springs_.insert(name); });
 }
 
 /// The first joint of this name among those read so far; nullptr if there is none.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstring>
 #include <deque>
 
 #include "bough/elements/coupling_kinds.hpp"
@@ -172,24 +173,6 @@ void add_joints(RuleTable& t) {
        may("forces", array_rule("", force, 0, 4), "Springs, dampers and efforts along its coordinates.", "[]"),
        may("drives", array_rule("", drive), "Prescribed coordinates.", "[]")}));
 
-  Rule spring = object_of(
-      "Spring and damper along the line between two points.",
-      {name_field(), need("first", named_rule("attachment"), "One end."),
-       need("second", named_rule("attachment"), "The other end."), may("stiffness", not_negative(""), "[N/m].", "0"),
-       may("rest_length", not_negative(""), "[m]. Default: the distance at the start."),
-       may("rest_law", named_rule("law_or_signal"),
-           "Rest length that changes [m], in the place of rest_length. The spring is a strut of its name then."),
-       may("stiffness_factor", named_rule("law_or_signal"),
-           "Factor of the stiffness that changes [-]. The spring is a strut of its name then. Default: 1."),
-       may("force_law", named_rule("law"),
-           "Tension [N] besides that of stiffness and damping: a law with the length [m] in the place of t, or a "
-           "formula "
-           "of `length`, `stretch` = length - rest_length [m], `rate` = d length/dt [m/s], signals and parameters, as "
-           "in {\"expression\": \"k*stretch^3 + c*rate*abs(rate)\"}. What it has at rate 0 is stored as strain "
-           "energy, unless it names signals. The spring is a strut of its name then. Default: none."),
-       may("damping", not_negative(""), "[N s/m].", "0")});
-  spring.at_most_one = {{"rest_length", "rest_law"}, {"force_law", "rest_law"}, {"force_law", "stiffness_factor"}};
-  t.named["spring"] = made(std::move(spring));
   t.named["actuator"] = made(object_of_kind(
       {"servo"},
       "A servo along a free coordinate q of a joint: lag T' + T = limited(position_gain (target - q) + rate_gain "
@@ -206,38 +189,62 @@ void add_joints(RuleTable& t) {
        may("limit", positive(""), "Largest torque [N m] or force [N]. Default: none."),
        may("lag", positive(""), "Time constant [s]. Default: none; the effort then follows at once."),
        may("start", any_number, "T at the start of dynamics [N m] or [N]; within the limit.", "0")}));
-  const RuleRef six = choice_rule("", {named_rule("diagonal6"), named_rule("matrix6")});
-  t.named["bushing"] =
-      made(object_of("Elastic and viscous coupling of all relative motions of two frames: of the origin of the second "
-                     "as seen from the first, and of its rotation; both in the axes of the first, wherever those of "
-                     "the second are drawn. At rest at the start.",
-                     {name_field(), need("first", named_rule("attachment"), "One side."),
-                      need("second", named_rule("attachment"), "The other side."),
-                      may("position", named_rule("vector"), "Place at the start, in the ground [m], as of a joint."),
-                      may("stiffness", six, "[N/m, N, N m/rad], order (linear; angular). Default: none."),
-                      may("damping", six, "The same for rates. Default: none."),
-                      may("stiffness_factor", named_rule("law_or_signal"),
-                          "Factor of the stiffness that changes [-]; damping is as given. Default: 1.")}));
 }
 
-/// The kinds of the catalogue, as their elements declare them.
-void add_catalogue(RuleTable& t, std::vector<Field>& lists) {
+/// What a kind of couplings takes of a field: its rule, what follows its sentence, and whether it may be left out.
+Field coupling_field(const scene::CouplingField& field) {
+  using Type = scene::CouplingFieldType;
+  const std::string unit = std::string(" [") + field.unit + "]";
+  RuleRef rule = named_rule("vector");
+  std::string more = ", in the ground at the start; the first carries it.";
+  if (field.type == Type::number) {
+    rule = number_rule("", field.low, field.is_low_open);
+    more = unit + (field.starts_as_distance ? ". Default: the distance at the start." : ".");
+  } else if (field.type == Type::matrix) {
+    rule = choice_rule("", {named_rule("diagonal6"), named_rule("matrix6")});
+    more = unit + ", order (linear; angular). Default: none.";
+  } else if (field.type == Type::law) {
+    rule = named_rule("law_or_signal");
+    more = unit + ". Default: 1.";
+  }
+  const std::string& about =
+      lasting(std::string(field.about, std::strlen(field.about) - 1) + more);  // a full stop less
+  const bool is_optional =
+      *field.standard != 0 || field.starts_as_distance || field.type == Type::matrix || field.type == Type::law;
+  return is_optional ? may(field.name, rule, about.c_str(), field.standard) : need(field.name, rule, about.c_str());
+}
+
+/// What makes a strut of a coupling along a line.
+void add_strut_fields(Rule& rule) {
+  rule.fields.push_back(
+      may("rest_law", named_rule("law_or_signal"),
+          "Rest length that changes [m], in the place of rest_length. It is a strut of its name then."));
+  rule.fields.push_back(may("stiffness_factor", named_rule("law_or_signal"),
+                            "Factor of the stiffness that changes [-]. It is a strut of its name then. Default: 1."));
+  rule.fields.push_back(
+      may("force_law", named_rule("law"),
+          "Tension [N] besides that of stiffness and damping: a law with the length [m] in the place of t, or a "
+          "formula of `length`, `stretch` = length - rest_length [m], `rate` = d length/dt [m/s], signals and "
+          "parameters, as in {\"expression\": \"k*stretch^3 + c*rate*abs(rate)\"}. What it has at rate 0 is stored as "
+          "strain energy, unless it names signals. It is a strut of its name then. Default: none."));
+  rule.at_most_one = {{"rest_length", "rest_law"}, {"force_law", "rest_law"}, {"force_law", "stiffness_factor"}};
+}
+
+/// The kinds of the catalogue, as their elements declare them; returns their lists.
+std::vector<Field> add_catalogue(RuleTable& t) {
+  std::vector<Field> lists;
   for (const scene::CouplingKind* kind : elements::coupling_kinds()) {
     std::vector<Field> fields = {name_field(), need("first", named_rule("attachment"), kind->first),
                                  need("second", named_rule("attachment"), kind->second)};
-    for (const scene::CouplingField& field : kind->fields) {
-      const bool is_number = field.type == scene::CouplingFieldType::number;
-      std::string about = field.about;
-      about.pop_back();  // the full stop
-      about +=
-          is_number ? std::string(" [") + field.unit + "]." : ", in the ground at the start; the first carries it.";
-      const RuleRef rule = is_number ? number_rule("", field.low, field.is_low_open) : named_rule("vector");
-      fields.push_back(*field.standard == 0 ? need(field.name, rule, lasting(about).c_str())
-                                            : may(field.name, rule, lasting(about).c_str(), field.standard));
-    }
-    t.named[kind->name] = made(object_of(kind->about, std::move(fields)));
+    if (kind->start == scene::CouplingStart::frame)
+      fields.push_back(may("position", named_rule("vector"), "Place at the start, in the ground [m], as of a joint."));
+    for (const scene::CouplingField& field : kind->fields) fields.push_back(coupling_field(field));
+    Rule rule = object_of(kind->about, std::move(fields));
+    if (kind->acts_along_line) add_strut_fields(rule);
+    t.named[kind->name] = made(std::move(rule));
     lists.push_back(may(kind->list, array_rule("", named_rule(kind->name)), kind->about, "[]"));
   }
+  return lists;
 }
 
 void add_loads(RuleTable& t) {
@@ -454,9 +461,7 @@ RuleTable make_scene_rules() {
                               list("bodies", "body", "Rigid bodies and point masses."),
                               list("beams", "beam", "Beams."),
                               list("joints", "joint", "Joints."),
-                              list("springs", "spring", "Springs and dampers between points."),
                               list("actuators", "actuator", "Servos with a lag and a limit."),
-                              list("bushings", "bushing", "Bushings."),
                               list("loads", "load", "Loads."),
                               list("motions", "motion", "Prescribed motions."),
                               list("initial_velocities", "initial_velocity", "Velocities at the start."),
@@ -464,7 +469,8 @@ RuleTable make_scene_rules() {
                               list("sensors", "sensor", "What is measured."),
                               list("expected", "expected", "Figures the run has to meet."),
                               list("measures", "measure", "Figures of the run, columns of batches and sweeps.")};
-  add_catalogue(t, lists);
+  const std::vector<Field> couplings = add_catalogue(t);
+  lists.insert(lists.begin() + 7, couplings.begin(), couplings.end());  // after joints
   add_expansion_rules(t, lists);
   t.has_formulas = true;
   Rule root = object_of(

@@ -132,7 +132,7 @@ void Builder::add_beams() {
   }
 }
 
-/// All elements of a prescribed motion, a spring, a bushing or a load.
+/// All elements of a prescribed motion, a coupling or a load.
 std::vector<int> Builder::elements_with_force(const std::string& part) const {
   std::vector<int> ids;
   for (std::size_t id = 0; id < plan.directory.size(); ++id)

@@ -59,7 +59,8 @@ void Builder::say_idle_parts() {
       bool moves = false;
       if constexpr (elements::has_mass_matrix<E>) moves = has_gravity;
       if constexpr (E::role == elements::Role::load) moves = !is_zero(e.wrench);
-      if constexpr (elements::IsCatalogued<E>) moves = true;  // it may push, which the start does not tell
+      // A coupling may push, which its data do not tell, unless it is without strain at the start.
+      if constexpr (elements::IsCatalogued<E>) moves = E::start == scene::CouplingStart::apart;
       if constexpr (E::acts_along_line) {
         const motion::Vec3<double> r = initial_pose(e.ports[1]).x - initial_pose(e.ports[0]).x;
         moves = std::abs(length_of(r) - e.rest_length) > 1e-12 * plan.length_scale;

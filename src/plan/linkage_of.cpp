@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "bough/scene/couplings.hpp"
 #include "bough/scene/joint_kinds.hpp"
 #include "geometry.hpp"
 
@@ -170,31 +171,20 @@ void SceneLinkage::add_motion(const scene::PrescribedMotion& m) {
 /// A spring under tension or compression also resists motions across its line.
 void SceneLinkage::add_stiffness() {
   for (const scene::Joint& j : scene_.joints) add_lateral(j);
-  for (const scene::Spring& s : scene_.springs) {
-    const auto a = poses_.of(s.first), b = poses_.of(s.second);
-    LinkEdge edge{part_of(s.first.to), part_of(s.second.to), s.name, {}, Vec3d::zero(), false};
-    if (!a || !b || edge.first == edge.second || s.stiffness == 0.0) continue;
-    const Vec3d span = b->x - a->x;
-    const double length = length_of(span);
-    const bool is_tense = std::abs(length - s.rest_length) > 1e-9 * length;
-    for (int k = 0; k < 3 && is_tense; ++k) edge.rows.push_back(linkage.along(Vec3d::unit(k), b->x));
-    if (!is_tense) edge.rows.push_back(linkage.along((1.0 / length) * span, b->x));
-    linkage.add(std::move(edge));
-  }
-  for (const scene::Bushing& u : scene_.bushings) {
-    const auto a = poses_.of(u.first), b = poses_.of(u.second);
-    LinkEdge edge{part_of(u.first.to), part_of(u.second.to), u.name, {}, Vec3d::zero(), false};
-    if (!a || !b || edge.first == edge.second) continue;
-    double most = 0.0;
-    for (const double x : u.stiffness.m) most = std::max(most, std::abs(x));
-    if (most > 0.0) add_rows(edge, u.stiffness, *a, b->x);
-    linkage.add(std::move(edge));
-  }
   for (const scene::Coupling& c : scene_.couplings) {
     const auto a = poses_.of(c.first), b = poses_.of(c.second);
     LinkEdge edge{part_of(c.first.to), part_of(c.second.to), c.name, {}, Vec3d::zero(), false};
     if (!a || !b || edge.first == edge.second) continue;
-    add_rows(edge, c.kind->stiffness(c, *a, *b), *b, b->x);
+    if (const auto force = scene::line_force_of(c)) {
+      if (force->stiffness == 0.0) continue;
+      const Vec3d span = b->x - a->x;
+      const double length = length_of(span);
+      const bool is_tense = std::abs(length - force->rest_length) > 1e-9 * length;
+      for (int k = 0; k < 3 && is_tense; ++k) edge.rows.push_back(linkage.along(Vec3d::unit(k), b->x));
+      if (!is_tense) edge.rows.push_back(linkage.along((1.0 / length) * span, b->x));
+    } else {
+      add_rows(edge, c.kind->stiffness(c, *a, *b), *a, b->x);
+    }
     linkage.add(std::move(edge));
   }
 }
@@ -225,17 +215,12 @@ void SceneLinkage::add_point_masses() {
     use->second.feels |= turns;
     if (length_of(a.offset.x) > 0.0) use->second.met.push_back(a.offset.x);
   };
-  const auto look = [&](const auto& item, bool turns) {
-    look_at(item.first, turns);
-    look_at(item.second, turns);
-  };
   for (const scene::Body& b : scene_.bodies)
     if (b.is_point_mass) uses.emplace(b.name, Use{});
-  for (const scene::Joint& j : scene_.joints) look(j, !scene::type_of(j.kind).joins_points());
-  for (const scene::Spring& s : scene_.springs) look(s, false);
-  for (const scene::Bushing& u : scene_.bushings) look(u, true);
+  for (const scene::Joint& j : scene_.joints)
+    for (const scene::Attachment* end : {&j.first, &j.second}) look_at(*end, !scene::type_of(j.kind).joins_points());
   for (const scene::Coupling& c : scene_.couplings) {
-    look_at(c.first, true);
+    look_at(c.first, !c.kind->acts_along_line);
     look_at(c.second, !c.kind->pulls_at_point);
   }
   for (const scene::Beam& beam : scene_.beams)

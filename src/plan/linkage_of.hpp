@@ -25,7 +25,7 @@ struct LinkageChoice {
   bool beams_are_rigid = true;  ///< false: beams are flexible and connect nothing
   /// Prescribed coordinates and motions that vary count as fixed, and so do rotations of point masses without effect.
   bool drives_hold = false;
-  bool stiffness_holds = false;  ///< springs, bushings, couplings and springs in joints count as rigid
+  bool stiffness_holds = false;  ///< couplings and springs in joints count as rigid
   SignalsHold signals = SignalsHold::nothing;
   /// Every motion with inertia counts as held, so that motions without inertia remain. Beams that are not rigid then
   /// count as massive at all their nodes.

@@ -106,7 +106,7 @@ void SceneLinkage::add_reading(const scene::Signal& s) {
     return item == list.end() ? nullptr : &*item;
   };
   const scene::Joint* joint = scene::reads_joint(s.kind) ? named(scene_.joints, s.joint) : nullptr;
-  const scene::Spring* spring = s.kind == SignalKind::spring_tension ? named(scene_.springs, s.spring) : nullptr;
+  const scene::Coupling* spring = s.kind == SignalKind::spring_tension ? named(scene_.couplings, s.spring) : nullptr;
   if (joint != nullptr) {
     first = &joint->first;
     second = &joint->second;

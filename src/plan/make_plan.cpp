@@ -53,14 +53,6 @@ int Builder::add_node(const std::string& name, const Frame<double>& pose) {
   return id;
 }
 
-/// Elements are numbered array after array once all are known; until then each keeps the name of its owner.
-template <class E>
-int Builder::add(const E& e, const std::string& owner) {
-  array_of<E>(plan.elements).push_back(e);
-  owners<E>().push_back(owner);
-  return static_cast<int>(array_of<E>(plan.elements).size()) - 1;
-}
-
 void Builder::add_bodies() {
   std::size_t inner = 0;
   for (const scene::Beam& b : scene.beams) inner += static_cast<std::size_t>(b.elements * b.order - 1);
@@ -183,57 +175,40 @@ void Builder::add_motions() {
   }
 }
 
-/// Makes two frames of a coupling equal at the start: the first takes the place of the second, the second the axes of
-/// the first. Their relative motion is then that of the second's origin and of its rotation as seen from the first, in
-/// the first's axes, wherever the second's axes are drawn and however far the origins are apart.
-void Builder::align_at_start(Port& first, Port& second) const {
+/// Makes two frames of a coupling equal at the start: the second gets the axes of the first, and the first the place of
+/// the second if frames are to be equal as a whole. Their relative motion is then that of the second's origin and of its
+/// rotation as seen from the first, in the first's axes, wherever the second's axes are drawn and however far the origins
+/// are apart.
+void Builder::align_at_start(scene::CouplingStart start, Port& first, Port& second) const {
+  if (start == scene::CouplingStart::apart) return;
   constexpr double round_off = 1e-14;
   const Frame<double> at_second = initial_pose(second), apart = motion::relative(initial_pose(first), at_second);
   const auto place = [](Port& port, const Frame<double>& within) {
     port.offset = motion::compose(port.offset, within);
     port.has_offset = true;
   };
-  if (motion::norm(apart.x) > round_off * motion::norm(at_second.x)) place(first, {Mat3<double>::identity(), apart.x});
+  if (start == scene::CouplingStart::frame && motion::norm(apart.x) > round_off * motion::norm(at_second.x))
+    place(first, {Mat3<double>::identity(), apart.x});
   const Vec3<double> turn = motion::log_so3(apart.R);
   if (motion::norm(turn) > round_off) place(second, {lanes::transpose(apart.R), Vec3<double>::zero()});
 }
 
 void Builder::add_couplings() {
-  for (const scene::Spring& s : scene.springs) {
-    elements::Spring e;
-    e.ports[0] = port_at(s.first);
-    e.ports[1] = port_at(s.second);
-    e.stiffness = s.stiffness;
-    e.rest_length = s.rest_length;
-    e.damping = s.damping;
-    add(e, s.name);
-  }
-  for (const scene::Bushing& b : scene.bushings) {
-    elements::Bushing e;
-    e.ports[0] = port_at(b.first);
-    e.ports[1] = port_at(b.second);
-    align_at_start(e.ports[0], e.ports[1]);
-    e.stiffness = b.stiffness;
-    e.damping = b.damping;
-    for (int i = 0; i < 36; ++i) e.has_damping |= b.damping.m[i] != 0.0;
-    e.rest = motion::Se3::log(motion::relative(initial_pose(e.ports[0]), initial_pose(e.ports[1])));
-    if (b.factor.node() != nullptr || !b.signal.empty()) e.factor = add_factor(b.factor, b.signal, b.name);
-    add(e, b.name);
-  }
-  for (const scene::Coupling& c : scene.couplings)
+  for (const scene::Coupling& c : scene.couplings) {
+    std::vector<int> laws;
+    for (const scene::Factor& f : c.factors) laws.push_back(f.is_given() ? add_factor(f.law, f.signal, c.name) : -1);
     elements::for_each_catalogued([&]<class E>() {
       if (c.kind != &elements::kind_of<E>) return;
       E e;
       e.ports[0] = port_at(c.first);
       e.ports[1] = port_at(c.second);
-      const Mat3<double> first = initial_pose(e.ports[0]).R;
-      if (E::starts_aligned) {
-        e.ports[1].offset.R = e.ports[1].offset.R * lanes::transpose_times(initial_pose(e.ports[1]).R, first);
-        e.ports[1].has_offset = true;
-      }
-      elements::take_data(e, c.values.data(), first);
+      align_at_start(E::start, e.ports[0], e.ports[1]);
+      const Frame<double> first = initial_pose(e.ports[0]);
+      elements::take_data(e, c.values.data(), first.R, laws.data());
+      take_start(e, motion::relative(first, initial_pose(e.ports[1])));
       add(e, c.name);
     });
+  }
   for (const scene::PointLoad& l : scene.point_loads) {
     elements::PointLoad e;
     e.ports[0] = port_at(l.at);
@@ -313,7 +288,7 @@ void Builder::number_elements() {
     });
 }
 
-/// In the order in which pictures show them: joints, springs and bushings, then the ends of beams.
+/// In the order in which pictures show them: joints and couplings, then the ends of beams.
 void Builder::list_attachments() {
   std::vector<int> body_at(plan.nodes.size(), -1);
   for (std::size_t b = 0; b < plan.bodies.size(); ++b)
@@ -489,12 +464,5 @@ Plan make_plan(const scene::Scene& scene) {
   b.plan.energy_stores = energy_stores(b.plan);
   return std::move(b.plan);
 }
-
-template int Builder::add(const elements::Beam<2>&, const std::string&);
-template int Builder::add(const elements::Beam<3>&, const std::string&);
-template int Builder::add(const elements::Beam<4>&, const std::string&);
-template int Builder::add(const elements::LineLoad<2>&, const std::string&);
-template int Builder::add(const elements::LineLoad<3>&, const std::string&);
-template int Builder::add(const elements::LineLoad<4>&, const std::string&);
 
 }  // namespace bough::plan

@@ -68,8 +68,14 @@ struct Builder {
   std::vector<std::string>& owners() {
     return std::get<OwnersOf<ElementArrays>::tag<E>>(owner_lists);
   }
+  /// Returns its index within its array: elements are numbered array after array once all are known, and until then
+  /// each keeps the name of its owner.
   template <class E>
-  int add(const E& e, const std::string& owner);  ///< index within its array
+  int add(const E& e, const std::string& owner) {
+    array_of<E>(plan.elements).push_back(e);
+    owners<E>().push_back(owner);
+    return static_cast<int>(owners<E>().size()) - 1;
+  }
 
   int add_law(const laws::Law& law, const std::string& user);
   int add_factor(const laws::Law& law, const std::string& user);
@@ -85,7 +91,7 @@ struct Builder {
   elements::Port port_at(const scene::Attachment& a) const;
   motion::Frame<double> initial_pose(const elements::Port& port) const;
 
-  void align_at_start(elements::Port& first, elements::Port& second) const;
+  void align_at_start(scene::CouplingStart start, elements::Port& first, elements::Port& second) const;
 
   /// Places for the values of signals among those of laws; then the signals themselves.
   void add_signal_laws();

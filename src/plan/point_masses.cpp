@@ -51,8 +51,6 @@ void Builder::find_points() {
     for (const E& e : array) {
       if constexpr (E::role == elements::Role::body)
         continue;
-      else if constexpr (E::acts_along_line)
-        mark(e, false);
       else if constexpr (E::role == elements::Role::load && E::num_ports == 1)
         mark(e, e.follows || lanes::dot(e.wrench, e.wrench) !=
                                  lanes::dot(lanes::linear_part(e.wrench), lanes::linear_part(e.wrench)));
@@ -64,7 +62,7 @@ void Builder::find_points() {
         mark_port(e.ports[0], turns || !motion::joins_points(std::span(e.rows, static_cast<std::size_t>(e.num_rows))));
         mark_port(e.ports[1], !acts_at_second_origin(e));
       } else if constexpr (elements::IsCatalogued<E>) {
-        mark_port(e.ports[0], true);
+        mark_port(e.ports[0], !E::acts_along_line);
         mark_port(e.ports[1], !E::pulls_at_point);
       } else
         mark(e, true);

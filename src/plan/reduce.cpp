@@ -67,10 +67,11 @@ double coupling_of(const Mat6<double>& m, const Mat3<double>& axes) {
   return strongest;
 }
 
-/// Where a coupling acts, and its directions and axes in the ground.
+/// Where a coupling acts, its directions and axes in the ground, and its matrices in the axes of the first port.
 struct CouplingSets {
   const Port (&ports)[2];
   std::vector<Vec3<double>> directions, axes;
+  std::vector<const Mat6<double>*> matrices;
 };
 
 /// A set of motions, and the condition for elements to keep it: `against` returns the first reason against it.
@@ -90,8 +91,6 @@ class Motion {
 
   virtual Obstacle against(const elements::RigidBody& e) = 0;
   virtual Obstacle against(const elements::Joint& e) = 0;
-  virtual Obstacle against(const elements::Spring& e) = 0;
-  virtual Obstacle against(const elements::Bushing& e) = 0;
   virtual Obstacle against(const elements::PointLoad& e) = 0;
   template <int N>
   Obstacle against(const elements::Beam<N>& e) {
@@ -108,11 +107,12 @@ class Motion {
   template <elements::IsCatalogued E>
   Obstacle against(const E& e) {
     const Mat3<double> axes = b_.initial_pose(e.ports[0]).R;
-    CouplingSets sets{e.ports, {}, {}};
+    CouplingSets sets{e.ports, {}, {}, {}};
     const auto look = [&](const auto& datum) {
       constexpr scene::CouplingFieldType type = std::decay_t<decltype(datum)>::type;
       if constexpr (type == scene::CouplingFieldType::direction) sets.directions.push_back(axes * (e.*datum.member));
       if constexpr (type == scene::CouplingFieldType::axis) sets.axes.push_back(axes * (e.*datum.member));
+      if constexpr (type == scene::CouplingFieldType::matrix) sets.matrices.push_back(&(e.*datum.member));
     };
     std::apply([&](const auto&... data) { (look(data), ...); }, E::declared());
     return against_coupling(sets);
@@ -158,14 +158,6 @@ class InPlane final : public Motion {
     const Frame<double> pose = b_.initial_pose(e.ports[0]);
     return exceeds(coupling_of(e.mass, axes_with(2, normal_in(pose))))
                ? Obstacle{"its mass is not symmetric about the plane (centre of mass, principal axes)"}
-               : std::nullopt;
-  }
-  Obstacle against(const elements::Spring& e) override { return against_places(e.ports); }
-  Obstacle against(const elements::Bushing& e) override {
-    if (auto o = against_places(e.ports)) return o;
-    const Vec3<double> a = normal_in(b_.initial_pose(e.ports[0]));  // the two frames are equal at the start
-    return exceeds(coupling_of(e.stiffness, axes_with(2, a))) || exceeds(coupling_of(e.damping, axes_with(2, a)))
-               ? Obstacle{"its stiffness or damping couples motions in the plane with others"}
                : std::nullopt;
   }
   Obstacle against(const elements::PointLoad& e) override {
@@ -263,7 +255,12 @@ class InPlane final : public Motion {
       if (exceeds(std::abs(lanes::dot(d, normal_)))) return "it acts out of the plane";
     for (const Vec3<double>& a : coupling.axes)
       if (exceeds(length_of(lanes::cross(a, normal_)))) return "it turns parts out of the plane";
-    return against_places(coupling.ports);
+    if (auto o = against_places(coupling.ports)) return o;
+    if (coupling.matrices.empty()) return std::nullopt;
+    const Mat3<double> axes = axes_with(2, normal_in(b_.initial_pose(coupling.ports[0])));
+    for (const Mat6<double>* m : coupling.matrices)
+      if (exceeds(coupling_of(*m, axes))) return "its stiffness or damping couples motions in the plane with others";
+    return std::nullopt;
   }
 
   template <int R, int C>
@@ -296,8 +293,6 @@ class OfPoints final : public Motion {
         if (exceeds(std::abs(e.mass(i, j)), mass * size_)) return "its centre of mass is not at its frame's origin";
     return std::nullopt;
   }
-  Obstacle against(const elements::Spring& e) override { return against_places(e.ports); }
-  Obstacle against(const elements::Bushing&) override { return "it holds rotations"; }
   Obstacle against(const elements::PointLoad& e) override {
     if (auto o = against_places(e.ports)) return o;
     if (e.follows) return "it follows rotations";
@@ -358,7 +353,7 @@ class OfPoints final : public Motion {
     return is_off(axes * linear(wrench)) ? Obstacle{"it acts off the line"} : std::nullopt;
   }
   Obstacle against_coupling(const CouplingSets& coupling) override {
-    if (!coupling.axes.empty()) return "it holds rotations";
+    if (!coupling.axes.empty() || !coupling.matrices.empty()) return "it holds rotations";
     if (!coupling.directions.empty() && coupling.ports[0].node != elements::ground)
       return "it turns with its first end";
     for (const Vec3<double>& d : coupling.directions)

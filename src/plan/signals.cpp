@@ -5,6 +5,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "bough/scene/couplings.hpp"
 #include "bough/scene/joint_efforts.hpp"
 #include "plan_builder.hpp"
 
@@ -103,7 +104,7 @@ void Builder::add_signals() {
   if (scene.signals.empty()) return;
   const auto given = by_name(scene.signals);
   const auto joints = by_name(scene.joints);
-  const auto springs = by_name(scene.springs);
+  const auto couplings = by_name(scene.couplings);
   const auto motions = by_name(scene.motions);
   for (SignalPlan& p : plan.signals) {
     const scene::Signal& s = *given.at(p.name);
@@ -147,13 +148,14 @@ void Builder::add_signals() {
       continue;
     }
     if (s.kind == scene::SignalKind::spring_tension) {
-      const scene::Spring* spring = springs.at(s.spring);
+      const scene::Coupling* spring = couplings.at(s.spring);
+      const scene::LineForce force = scene::line_force_of(*spring).value();
       p.reading.ports[0] = port_at(spring->first);
       p.reading.ports[1] = port_at(spring->second);
       read.coordinate = motion::RowKind::distance;
-      read.stiffness = spring->stiffness;
-      read.rest = spring->rest_length;
-      read.damping = spring->damping;
+      read.stiffness = force.stiffness;
+      read.rest = force.rest_length;
+      read.damping = force.damping;
       continue;
     }
     (p.rule == SignalRule::rate ? read.damping : read.stiffness) = 1.0;

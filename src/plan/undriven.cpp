@@ -117,15 +117,13 @@ class FreeMotions {
 
   bool nothing_acts_along(const LinkComponent& c, Eigen::Index k) {
     const auto rests = [&](const scene::Attachment& a) { return is_still(motion_at(c, k, a).head<3>().norm()); };
-    for (const scene::Spring& s : scene_.springs)
-      if (!rests(s.first) || !rests(s.second)) return false;
-    const auto moves_apart = [&](const auto& coupling) {
+    const auto acts = [&](const scene::Coupling& coupling) {
+      if (coupling.kind->acts_along_line) return !rests(coupling.first) || !rests(coupling.second);
       return !is_still(
           (c.twist_of(linkage_.part_of(coupling.second.to), k) - c.twist_of(linkage_.part_of(coupling.first.to), k))
               .norm());
     };
-    if (std::any_of(scene_.bushings.begin(), scene_.bushings.end(), moves_apart)) return false;
-    if (std::any_of(scene_.couplings.begin(), scene_.couplings.end(), moves_apart)) return false;
+    if (std::any_of(scene_.couplings.begin(), scene_.couplings.end(), acts)) return false;
     for (const scene::PointLoad& l : scene_.point_loads) {
       const Twist t = motion_at(c, k, l.at);
       const bool has_moment = lanes::dot(l.moment, l.moment) > 0.0;

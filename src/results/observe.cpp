@@ -8,6 +8,7 @@
 
 #include "bough/results/balance.hpp"
 #include "bough/scene/components.hpp"
+#include "bough/scene/couplings.hpp"
 #include "bough/scene/sensor_kinds.hpp"
 #include "observe_parts.hpp"
 #include "section_force.hpp"
@@ -246,7 +247,7 @@ Vec3<double> velocity_of(const Port& port, const Field& f) {
   return p.pose.R * lanes::linear_part(p.v);
 }
 
-/// Calls visit(name, first port, second port) for joints, springs, bushings and prescribed motions, in the order of
+/// Calls visit(name, first port, second port) for joints, couplings and prescribed motions, in the order of
 /// MotionFrame::links.
 template <class Visit>
 void for_each_link(const plan::Plan& plan, const Visit& visit) {
@@ -382,10 +383,13 @@ records::MotionParts make_parts(const scene::Scene& scene, const step::System& s
   for (const plan::SignalPlan& signal : plan.signals) parts.signal_units.push_back(signal.unit);
   std::map<std::string, std::string> kind_of;
   for (const scene::Joint& j : scene.joints) kind_of[j.name] = scene::to_string(j.kind);
-  for (const scene::Spring& s : scene.springs)
-    kind_of[s.name] = !(s.damping > 0.0) ? "spring" : !(s.stiffness > 0.0) ? "damper" : "spring and damper";
-  for (const scene::Bushing& b : scene.bushings) kind_of[b.name] = "bushing";
-  for (const scene::Coupling& c : scene.couplings) kind_of[c.name] = c.kind->name;
+  for (const scene::Coupling& c : scene.couplings) {
+    const auto line = scene::line_force_of(c);
+    kind_of[c.name] = !line                      ? c.kind->name
+                      : !(line->damping > 0.0)   ? "spring"
+                      : !(line->stiffness > 0.0) ? "damper"
+                                                 : "spring and damper";
+  }
   for_each_link(plan, [&](const std::string& name, const Port&, const Port&) {
     const auto found = kind_of.find(name);
     parts.links.push_back({found != kind_of.end() ? found->second : "prescribed motion"});

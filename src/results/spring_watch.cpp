@@ -22,19 +22,18 @@ double cosine(const Vec3<double>& a, const Vec3<double>& b) {
 }  // namespace
 
 SpringWatch::SpringWatch(const plan::Plan& plan) {
-  const auto& springs = plan::array_of<elements::Spring>(plan.elements);
   for (std::size_t id = 0; plan.is_dynamic && id < plan.directory.size(); ++id)
     plan::with_element(plan.elements, plan.directory[id], [&](const auto& e) {
       if constexpr (std::decay_t<decltype(e)>::acts_along_line)
         if (e.rest_length > 0.0 && e.stiffness > 0.0)
-          seen_.push_back({static_cast<int>(&e - springs.data()), plan.element_owner[id]});
+          seen_.push_back({{e.ports[0], e.ports[1]}, plan.element_owner[id]});
     });
 }
 
-Vec3<double> SpringWatch::rate_of(const elements::Spring& e, const elements::Field& f) {
-  const auto anchor = elements::anchor_of(e, f.nodes);
-  const auto a = elements::eval_port(e.ports[0], f.nodes, anchor, f.carriers),
-             b = elements::eval_port(e.ports[1], f.nodes, anchor, f.carriers);
+Vec3<double> SpringWatch::rate_of(const Seen& s, const elements::Field& f) {
+  const auto anchor = elements::anchor_of(s, f.nodes);
+  const auto a = elements::eval_port(s.ports[0], f.nodes, anchor, f.carriers),
+             b = elements::eval_port(s.ports[1], f.nodes, anchor, f.carriers);
   return b.H.R * lanes::linear_part(b.v) - a.H.R * lanes::linear_part(a.v);
 }
 
@@ -42,17 +41,15 @@ Vec3<double> SpringWatch::rate_of(const elements::Spring& e, const elements::Fie
 void SpringWatch::look(const step::System& system, const step::State& state) {
   if (seen_.empty() || passed_) return;
   const elements::Field f = system.instant().field(state);
-  const auto& springs = plan::array_of<elements::Spring>(system.plan().elements);
   for (Seen& s : seen_) {
-    const elements::Spring& e = springs[static_cast<std::size_t>(s.spring)];
-    const Vec3<double> span = position_of(f, e.ports[1]) - position_of(f, e.ports[0]);
+    const Vec3<double> span = position_of(f, s.ports[1]) - position_of(f, s.ports[0]);
     if (!is_first_ && lanes::dot(span, s.span) < 0.0 && cosine(s.approach, s.span) < -along &&
-        cosine(rate_of(e, f), span) > along) {
+        cosine(rate_of(s, f), span) > along) {
       passed_ = static_cast<std::size_t>(&s - seen_.data());
       time_ = state.time;
       return;
     }
-    s.approach = is_first_ ? rate_of(e, f) : span - s.span;
+    s.approach = is_first_ ? rate_of(s, f) : span - s.span;
     s.span = span;
   }
   is_first_ = false;

@@ -70,7 +70,7 @@ Estimate estimate_run(const scene::Scene& scene) {
     inner += elements * (b.order - 1.0);
   }
   const double ends = static_cast<double>(scene.nodes.size() + scene.bodies.size());
-  const auto links = static_cast<double>(scene.springs.size() + scene.bushings.size() + scene.couplings.size());
+  const auto links = static_cast<double>(scene.couplings.size());
   const double loads = static_cast<double>(scene.point_loads.size() + scene.line_loads.size());
   e.nodes += ends + inner;
   e.joints = static_cast<double>(scene.joints.size() + scene.motions.size());

@@ -61,9 +61,7 @@ bool is_free_to_turn(const scene::Scene& scene, const scene::Poses& poses, const
   const auto to_ground = [&](const auto& item) {
     return is_fixed_place(poses, item.first.to) != is_fixed_place(poses, item.second.to);
   };
-  return scene.motions.empty() && std::none_of(scene.springs.begin(), scene.springs.end(), to_ground) &&
-         std::none_of(scene.bushings.begin(), scene.bushings.end(), to_ground) &&
-         std::none_of(scene.couplings.begin(), scene.couplings.end(), to_ground) &&
+  return scene.motions.empty() && std::none_of(scene.couplings.begin(), scene.couplings.end(), to_ground) &&
          std::all_of(scene.joints.begin(), scene.joints.end(),
                      [&](const scene::Joint& j) { return allows(j, poses, spin); });
 }

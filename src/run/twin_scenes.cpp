@@ -21,14 +21,6 @@ void for_each_place(Scene& scene, F&& f) {
     f(j.first.to);
     f(j.second.to);
   }
-  for (auto& s : scene.springs) {
-    f(s.first.to);
-    f(s.second.to);
-  }
-  for (auto& b : scene.bushings) {
-    f(b.first.to);
-    f(b.second.to);
-  }
   for (auto& c : scene.couplings) {
     f(c.first.to);
     f(c.second.to);

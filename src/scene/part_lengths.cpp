@@ -41,8 +41,6 @@ PartLengths::PartLengths(const Scene& scene, const Poses& poses)
     }
   };
   hold_both(scene.joints);
-  hold_both(scene.springs);
-  hold_both(scene.bushings);
   hold_both(scene.couplings);
   for (const PrescribedMotion& m : scene.motions) hold(m.at);
   for (std::size_t i = 0; i < scene.beams.size(); ++i) {

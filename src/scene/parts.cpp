@@ -71,6 +71,17 @@ scene::Body make_body(const std::string& name, double mass, const Vec3& inertia,
   return b;
 }
 
+Coupling make_coupling(const CouplingKind& kind, const std::string& name, const std::string& first,
+                       const std::string& second, std::vector<double> values) {
+  std::size_t numbers = 0, laws = 0;
+  for (const CouplingField& field : kind.fields) {
+    numbers += field.count();
+    laws += field.type == CouplingFieldType::law ? 1 : 0;
+  }
+  values.resize(numbers);
+  return {&kind, name, {first}, {second}, std::move(values), std::vector<Factor>(laws)};
+}
+
 scene::PointLoad make_load(const std::string& node, const Vec3& force, const Vec3& moment, scene::LoadAxes axes) {
   scene::PointLoad l;
   l.name = "load at " + node;
@@ -173,10 +184,9 @@ void scale_masses(scene::Scene& s, double factor) {
 
 void to_millimetres(scene::Scene& s) {
   const auto longer = [](Vec3& v) { v = 1e3 * v; };
-  if (!s.springs.empty() || !s.bushings.empty() || !s.couplings.empty() || !s.point_loads.empty() ||
-      !s.line_loads.empty() || !s.motions.empty() || !s.frames.empty())
-    throw std::invalid_argument(
-        "to_millimetres: springs, bushings, couplings, loads, prescribed motions and frames are not handled");
+  if (!s.couplings.empty() || !s.point_loads.empty() || !s.line_loads.empty() || !s.motions.empty() ||
+      !s.frames.empty())
+    throw std::invalid_argument("to_millimetres: couplings, loads, prescribed motions and frames are not handled");
   longer(s.gravity);
   for (scene::Node& n : s.nodes) longer(n.placement.pose.x);
   for (scene::Body& b : s.bodies) {

@@ -51,14 +51,12 @@ namespace {
 std::unordered_map<std::string_view, Thing> things_of(const Scene& scene) {
   std::unordered_map<std::string_view, Thing> things;
   things.reserve(scene.nodes.size() + scene.bodies.size() + scene.beams.size() + scene.joints.size() +
-                 scene.springs.size());
+                 scene.couplings.size());
   add_all(things, scene.frames, ThingKind::frame);
   add_all(things, scene.nodes, ThingKind::node);
   add_all(things, scene.bodies, ThingKind::body);
   add_all(things, scene.beams, ThingKind::beam);
   add_all(things, scene.joints, ThingKind::joint);
-  add_all(things, scene.springs, ThingKind::other);
-  add_all(things, scene.bushings, ThingKind::other);
   add_all(things, scene.couplings, ThingKind::other);
   add_all(things, scene.point_loads, ThingKind::other);
   add_all(things, scene.line_loads, ThingKind::other);

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdio>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -69,7 +70,7 @@ struct ProblemList {
 using motion::norm;
 std::string text_of(double x);
 bool is_zero(const Vec3& a);
-bool is_zero(const Mat6& a);
+bool is_zero(std::span<const double> numbers);
 
 enum class Definite { positive, semi };
 /// Empty, or what is wrong with a matrix that has to be symmetric and positive (semi-) definite.

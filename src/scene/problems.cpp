@@ -230,8 +230,8 @@ std::string text_of(double x) {
   return text;
 }
 bool is_zero(const Vec3& a) { return a[0] == 0.0 && a[1] == 0.0 && a[2] == 0.0; }
-bool is_zero(const Mat6& a) {
-  return std::all_of(std::begin(a.m), std::end(a.m), [](double x) { return x == 0.0; });
+bool is_zero(std::span<const double> numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return x == 0.0; });
 }
 
 bool ProblemList::check_frame(const char* section, std::size_t index, const std::string& frame) {
@@ -247,8 +247,6 @@ void check_names(ProblemList& list) {
   check_one_set(list, "bodies", s.bodies, things);
   check_one_set(list, "beams", s.beams, things);
   check_one_set(list, "joints", s.joints, things);
-  check_one_set(list, "springs", s.springs, things);
-  check_one_set(list, "bushings", s.bushings, things);
   check_one_set(list, "couplings", s.couplings, things);
   check_one_set(list, "point_loads", s.point_loads, things);
   check_one_set(list, "line_loads", s.line_loads, things);

@@ -2,9 +2,11 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 
 #include "bough/motion/se3.hpp"
 #include "bough/scene/analysis_kinds.hpp"
+#include "bough/scene/couplings.hpp"
 #include "bough/scene/part_lengths.hpp"
 #include "problem_list.hpp"
 
@@ -174,60 +176,64 @@ void check_joints(ProblemList& list) {
 
 namespace {
 
-/// What the kind of a coupling says of its numbers; ends are checked as of all pairs.
-void check_catalogued(ProblemList& list, std::size_t i) {
+/// What is wrong with a number, a direction or a matrix of a coupling.
+std::string fault_of(const CouplingField& field, std::span<const double> values) {
+  if (field.type == CouplingFieldType::number)
+    return std::isfinite(values[0]) && values[0] >= field.low && !(field.is_low_open && values[0] == field.low)
+               ? ""
+               : std::string("has to be ") + (field.is_low_open ? "more than " : "at least ") + text_of(field.low);
+  if (field.type == CouplingFieldType::matrix) {
+    Mat6 matrix;
+    std::copy(values.begin(), values.end(), matrix.m);
+    const std::string fault = definite_fault(matrix, Definite::semi);
+    return fault.empty() ? "" : std::string("the ") + field.name + " " + fault;
+  }
+  constexpr double least = 1e-150;  // the square of a smaller length is 0
+  const double length = norm(Vec3{{values[0], values[1], values[2]}});
+  return length > least && std::isfinite(length) ? "" : "a direction has a length other than 0";
+}
+
+void check_coupling(ProblemList& list, std::size_t i) {
   const Coupling& c = list.scene.couplings[i];
   if (c.kind == nullptr) return list.add("couplings", i, "kind", c.name, "this coupling has no kind");
-  check_pair(list, "couplings", i, c);
-  std::size_t wanted = 0;
-  for (const CouplingField& field : c.kind->fields) wanted += static_cast<std::size_t>(field.count());
-  if (c.values.size() != wanted)
-    return list.add("couplings", i, "values", c.name,
-                    std::string("a ") + c.kind->name + " has " + std::to_string(wanted) + " numbers, and " +
-                        std::to_string(c.values.size()) + " are given");
-  const double* value = c.values.data();
-  for (const CouplingField& field : c.kind->fields) {
-    if (field.type != CouplingFieldType::number) {
-      constexpr double least = 1e-150;  // the square of a smaller length is 0
-      if (const double length = norm(Vec3{{value[0], value[1], value[2]}}); !(length > least && std::isfinite(length)))
-        list.add("couplings", i, field.name, "", "a direction has a length other than 0");
-    } else if (!std::isfinite(*value) || *value < field.low || (field.is_low_open && *value == field.low)) {
-      list.add("couplings", i, field.name, text_of(*value),
-               std::string("has to be ") + (field.is_low_open ? "more than " : "at least ") + text_of(field.low));
+  const auto a = list.poses.of(c.first), b = list.poses.of(c.second);
+  if (check_pair(list, "couplings", i, c) && c.kind->acts_along_line && a && b &&
+      norm(b->x - a->x) <= 1e-12 * list.size)
+    list.add("couplings", i, "second", "",
+             std::string("the two ends coincide at the start: the ") + c.kind->name + " has no direction",
+             "use a bushing");
+  bool acts = false;
+  std::size_t known = 0;
+  std::string strengths, last;
+  std::set<std::string> idle;  // strengths that are zero
+  for_each_field(c, [&](const CouplingField& field, std::span<const double> values, const Factor* factor) {
+    ++known;
+    if (factor != nullptr) {
+      list.check_law("couplings", i, field.name, factor->law, false);
+      if (factor->is_given() && idle.count(field.multiplied) > 0)
+        list.add("couplings", i, field.name, "",
+                 std::string("there is no ") + field.multiplied + " that this factor could multiply",
+                 std::string("give the ") + field.multiplied + " at the factor 1");
+    } else if (const std::string fault = fault_of(field, values); !fault.empty()) {
+      list.add("couplings", i, field.name, values.size() == 1 ? text_of(values[0]) : "", fault);
     }
-    value += field.count();
-  }
+    if (!field.is_strength) return;
+    if (!last.empty()) strengths += (strengths.empty() ? "" : ", ") + last;
+    last = field.name;
+    acts |= !is_zero(values);
+    if (is_zero(values)) idle.insert(field.name);
+  });
+  if (known != c.kind->fields.size())
+    list.add("couplings", i, "values", c.name, std::string("these are not the numbers of a ") + c.kind->name);
+  if (!last.empty() && !acts)
+    list.warn("couplings", i, "", "",
+              "without " + (strengths.empty() ? "" : strengths + " and ") + last + " it does nothing");
 }
 
 }  // namespace
 
 void check_couplings(ProblemList& list) {
-  for (std::size_t i = 0; i < list.scene.couplings.size(); ++i) check_catalogued(list, i);
-  for (std::size_t i = 0; i < list.scene.springs.size(); ++i) {
-    const Spring& s = list.scene.springs[i];
-    if (check_pair(list, "springs", i, s)) {
-      const auto a = list.poses.of(s.first), b = list.poses.of(s.second);
-      if (a && b && norm(b->x - a->x) <= 1e-12 * list.size)
-        list.add("springs", i, "second", "", "the two ends coincide at the start: the spring has no direction",
-                 "use a bushing");
-    }
-    if (s.stiffness == 0.0 && s.damping == 0.0)
-      list.warn("springs", i, "", "", "without stiffness and damping it does nothing");
-  }
-  for (std::size_t i = 0; i < list.scene.bushings.size(); ++i) {
-    const Bushing& b = list.scene.bushings[i];
-    check_pair(list, "bushings", i, b);
-    if (const std::string fault = definite_fault(b.stiffness, Definite::semi); !fault.empty())
-      list.add("bushings", i, "stiffness", "", "the stiffness " + fault);
-    if (const std::string fault = definite_fault(b.damping, Definite::semi); !fault.empty())
-      list.add("bushings", i, "damping", "", "the damping " + fault);
-    if (is_zero(b.stiffness) && is_zero(b.damping))
-      list.warn("bushings", i, "", "", "without stiffness and damping it does nothing");
-    list.check_law("bushings", i, "stiffness_factor", b.factor, false);
-    if (is_zero(b.stiffness) && (b.factor.node() != nullptr || !b.signal.empty()))
-      list.add("bushings", i, "stiffness_factor", "", "there is no stiffness that this factor could multiply",
-               "give the stiffness at the factor 1");
-  }
+  for (std::size_t i = 0; i < list.scene.couplings.size(); ++i) check_coupling(list, i);
 }
 
 namespace {

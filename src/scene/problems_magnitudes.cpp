@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bough/scene/couplings.hpp"
 #include "problem_list.hpp"
 
 namespace bough::scene {
@@ -31,9 +32,9 @@ void judge(ProblemList& list, const char* section, std::size_t i, const char* ke
     list.warn(section, i, key, name, told + " is very large: is it meant?", "units are SI: " + std::string(q.unit));
 }
 
-double largest_entry(const Mat6& a) {
+double largest_entry(std::span<const double> a) {
   double most = 0.0;
-  for (const double x : a.m) most = std::max(most, std::abs(x));
+  for (const double x : a) most = std::max(most, std::abs(x));
   return most;
 }
 
@@ -69,28 +70,17 @@ void check_load_sizes(ProblemList& list) {
 void check_stiffness_sizes(ProblemList& list) {
   const Scene& s = list.scene;
   for (std::size_t i = 0; i < s.sections.size(); ++i) {
-    judge(list, "sections", i, "stiffness", s.sections[i].name, largest_entry(s.sections[i].stiffness), stiffness);
-    judge(list, "sections", i, "mass", s.sections[i].name, largest_entry(s.sections[i].mass), mass);
-    judge(list, "sections", i, "damping", s.sections[i].name, largest_entry(s.sections[i].damping), damping);
-  }
-  for (std::size_t i = 0; i < s.springs.size(); ++i) {
-    judge(list, "springs", i, "stiffness", s.springs[i].name, s.springs[i].stiffness, stiffness);
-    judge(list, "springs", i, "damping", s.springs[i].name, s.springs[i].damping, damping);
-  }
-  for (std::size_t i = 0; i < s.bushings.size(); ++i) {
-    judge(list, "bushings", i, "stiffness", s.bushings[i].name, largest_entry(s.bushings[i].stiffness), stiffness);
-    judge(list, "bushings", i, "damping", s.bushings[i].name, largest_entry(s.bushings[i].damping), damping);
+    judge(list, "sections", i, "stiffness", s.sections[i].name, largest_entry(s.sections[i].stiffness.m), stiffness);
+    judge(list, "sections", i, "mass", s.sections[i].name, largest_entry(s.sections[i].mass.m), mass);
+    judge(list, "sections", i, "damping", s.sections[i].name, largest_entry(s.sections[i].damping.m), damping);
   }
   constexpr double odd = 1e20;
-  for (std::size_t i = 0; i < s.couplings.size(); ++i) {
-    const Coupling& c = s.couplings[i];
-    std::size_t at = 0;
-    for (const CouplingField& field : c.kind != nullptr ? c.kind->fields : std::span<const CouplingField>{}) {
-      if (field.type == CouplingFieldType::number && at < c.values.size())
-        judge(list, "couplings", i, field.name, c.name, std::abs(c.values[at]), {field.name, field.unit, odd});
-      at += static_cast<std::size_t>(field.count());
-    }
-  }
+  for (std::size_t i = 0; i < s.couplings.size(); ++i)
+    for_each_field(s.couplings[i], [&](const CouplingField& field, std::span<const double> values, const Factor*) {
+      if (field.type == CouplingFieldType::number || field.type == CouplingFieldType::matrix)
+        judge(list, "couplings", i, field.name, s.couplings[i].name, largest_entry(values),
+              {(std::string("the ") + field.name).c_str(), field.unit, odd});
+    });
   for (std::size_t i = 0; i < s.joints.size(); ++i)
     for (std::size_t k = 0; k < s.joints[i].forces.size(); ++k) {
       const JointForce& f = s.joints[i].forces[k];

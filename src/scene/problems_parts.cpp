@@ -180,7 +180,7 @@ void check_beams(ProblemList& list) {
     if (has_ends && !b.frame.empty() && b.frame != "ground")
       has_ends = list.check_reference("beams", i, "frame", b.frame, list.frames, "frame");
     if (has_ends) check_beam_axis(list, i);
-    if (has_section && list.is_dynamic && is_zero(list.scene.sections[list.section_of.at(b.section)].mass))
+    if (has_section && list.is_dynamic && is_zero(list.scene.sections[list.section_of.at(b.section)].mass.m))
       list.warn("beams", i, "section", b.section, "this section has no mass, and the analysis is dynamic");
   }
   if (!list.defective.empty()) return;  // a beam that was left out may use it

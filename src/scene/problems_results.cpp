@@ -60,15 +60,13 @@ void check_coordinate(ProblemList& list, std::size_t i, const JointType& joint) 
   }
 }
 
-/// Names of prescribed motions, springs, bushings, couplings and loads. A spring with laws of its own is a strut.
+/// Names of prescribed motions, couplings and loads. A spring with laws of its own is a strut.
 std::vector<std::string> parts_with_forces(const Scene& scene) {
   std::vector<std::string> names;
   const auto add_names = [&names](const auto& items) {
     for (const auto& item : items) names.push_back(item.name);
   };
   add_names(scene.motions);
-  add_names(scene.springs);
-  add_names(scene.bushings);
   add_names(scene.couplings);
   add_names(scene.point_loads);
   add_names(scene.line_loads);
@@ -440,7 +438,7 @@ void check_analysis(ProblemList& list) {
                                     [](const Body& b) { return b.mass > 0.0 || !(b.inertia(0, 0) == 0.0); }) ||
                         std::any_of(s.beams.begin(), s.beams.end(), [&](const Beam& b) {
                           const auto section = list.section_of.find(b.section);
-                          return section != list.section_of.end() && !is_zero(s.sections[section->second].mass);
+                          return section != list.section_of.end() && !is_zero(s.sections[section->second].mass.m);
                         });
   if (!has_mass && list.defective.empty() && !(s.nodes.empty() && s.bodies.empty()))
     list.add("analysis", 0, "kind", std::string(type_of(a.kind).name),
@@ -464,9 +462,8 @@ void check_holding(ProblemList& list) {
     join(b.name, b.end, true);
   }
   for (const Joint& j : s.joints) join(j.first.to, j.second.to, true);
-  for (const Spring& p : s.springs) join(p.first.to, p.second.to, false);
-  for (const Bushing& b : s.bushings) join(b.first.to, b.second.to, true);
-  for (const Coupling& c : s.couplings) join(c.first.to, c.second.to, false);
+  for (const Coupling& c : s.couplings)
+    join(c.first.to, c.second.to, c.kind != nullptr && c.kind->start == CouplingStart::frame);
   for (const PrescribedMotion& m : s.motions) join(m.at.to, "ground", true);
   for (std::size_t i = 0; i < s.nodes.size(); ++i)
     if (used[i] == 0)

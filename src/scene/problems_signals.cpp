@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "bough/scene/couplings.hpp"
 #include "bough/scene/joint_efforts.hpp"
 #include "bough/scene/sensor_kinds.hpp"
 #include "bough/scene/signals.hpp"
@@ -291,7 +292,8 @@ void check_signals(ProblemList& list) {
   SignalNames names(list);
   SignalLevels levels(list);
   std::vector<std::string> springs;
-  for (const Spring& spring : scene.springs) springs.push_back(spring.name);
+  for (const Coupling& c : scene.couplings)
+    if (line_force_of(c)) springs.push_back(c.name);
   const std::unordered_set<std::string_view> spring_of(springs.begin(), springs.end());
   check_twin_efforts(list);
   for (std::size_t i = 0; i < scene.signals.size(); ++i) {
@@ -324,10 +326,13 @@ void check_signals(ProblemList& list) {
       names.check("joints", i, key, scene.joints[i].forces[k].signal);
       levels.check_effort("joints", i, key, scene.joints[i].forces[k].signal);
     }
-  for (std::size_t i = 0; i < scene.bushings.size(); ++i) {
-    names.check("bushings", i, "stiffness_factor/signal", scene.bushings[i].signal);
-    levels.check_effort("bushings", i, "stiffness_factor/signal", scene.bushings[i].signal);
-  }
+  for (std::size_t i = 0; i < scene.couplings.size(); ++i)
+    for_each_field(scene.couplings[i], [&](const CouplingField& field, std::span<const double>, const Factor* given) {
+      if (given == nullptr) return;
+      const std::string key = std::string(field.name) + "/signal";
+      names.check("couplings", i, key, given->signal);
+      levels.check_effort("couplings", i, key, given->signal);
+    });
   check_driven_rows(list, names, levels);
   const auto check_loads_of = [&](const char* section, const auto& loads) {
     for (std::size_t i = 0; i < loads.size(); ++i) {

@@ -17,8 +17,8 @@ bool is_moderate(const Vec3& x) {
   return std::abs(x[0]) < overflowing && std::abs(x[1]) < overflowing && std::abs(x[2]) < overflowing;
 }
 
-/// Diagonal of the box around all nodes, bodies and places where joints, springs, bushings and other couplings take hold [m]; 0 if these
-/// are one point.
+/// Diagonal of the box around all nodes, bodies and places where joints and couplings take hold [m]; 0 if these are one
+/// point.
 double extent_of(const ProblemList& list) {
   Vec3 low = Vec3::zero(), high = low;
   bool is_first = true;
@@ -40,8 +40,6 @@ double extent_of(const ProblemList& list) {
     }
   };
   include_ends(s.joints);
-  include_ends(s.springs);
-  include_ends(s.bushings);
   include_ends(s.couplings);
   const double size = norm(Vec3(high - low));
   return std::isfinite(size) ? size : 0.0;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bough/laws/formula.hpp"
+#include "bough/scene/couplings.hpp"
 #include "bough/scene/joint_efforts.hpp"
 
 namespace bough::scene {
@@ -33,9 +34,9 @@ class Named {
 
 /// Parts that signals read.
 struct PartsRead {
-  explicit PartsRead(const Scene& scene) : joints(scene.joints), springs(scene.springs) {}
+  explicit PartsRead(const Scene& scene) : joints(scene.joints), couplings(scene.couplings) {}
   Named<Joint> joints;
-  Named<Spring> springs;
+  Named<Coupling> couplings;
 };
 
 }  // namespace
@@ -266,8 +267,9 @@ std::vector<std::vector<std::size_t>> users_of(const std::vector<std::vector<std
 /// The level of what a signal reads itself, without its inputs.
 int level_of_reading(const PartsRead& parts, const Signal& s) {
   if (s.kind == SignalKind::spring_tension) {
-    const Spring* spring = parts.springs.find(s.spring);
-    return spring != nullptr && spring->damping != 0.0 ? 1 : 0;
+    const Coupling* spring = parts.couplings.find(s.spring);
+    const auto force = spring == nullptr ? std::nullopt : line_force_of(*spring);
+    return force && force->damping != 0.0 ? 1 : 0;
   }
   if (s.kind != SignalKind::joint_effort) return type_of(s.kind).level;
   if (reads_reaction(s)) return 2;

@@ -6,8 +6,8 @@
 /// change to another inertial frame is exact. Relative to one that moves with the mass centre of an assembly, and falls
 /// with g where all of the scene flies, a rigid assembly only turns: each of its nodes has a constant twist in a steady
 /// rotation, for which the rule is exact, and linear momentum is kept to round-off. Each step chooses such a frame for
-/// each assembly of what nothing ties to the ground. Beams and joints make an assembly; springs, bushings and contacts
-/// do not, since what they couple may spin at different rates. What is tied moves about points at rest: the frame of the
+/// each assembly of what nothing ties to the ground. Beams and joints make an assembly; couplings do not, since what
+/// they couple may spin at different rates. What is tied moves about points at rest: the frame of the
 /// ground is its own.
 #include "bough/elements/evaluate.hpp"
 #include "bough/motion/vectors_on.hpp"

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bench.hpp"
+#include "bough/elements/catalogue.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/scene/parts.hpp"
 #include "bough/step/options.hpp"
@@ -140,12 +141,8 @@ void large_steps(Bench& bench) {
     scene::Scene s = pendulum(ratio * period, steps);
     s.bodies = {scene::make_body("bob", 1.0, {{0.1, 0.1, 0.1}}, s.bodies[0].placement.pose.x)};
     s.initial_velocities[0].angular_velocity = Vec3::zero();
-    scene::Spring spring;
-    spring.name = "spring";
-    spring.second.to = "bob";
-    spring.stiffness = w * w;
-    spring.rest_length = 1.0 - stretch;
-    s.springs = {spring};
+    s.couplings = {
+        scene::make_coupling(elements::kind_of<elements::Spring>, "spring", "", "bob", {w * w, 1.0 - stretch})};
     s.joints = {scene::make_joint("plane", scene::JointKind::planar, "", Vec3::zero(), "bob", Vec3::zero())};
     s.sensors = {scene::make_point_sensor("bob", scene::SensorKind::position, "bob"),
                  scene::make_point_sensor("bob rate", scene::SensorKind::velocity, "bob")};
@@ -221,11 +218,8 @@ void spectral_radius(Bench& bench) {
       scene::Scene s;
       s.name = "mass on a spring";
       s.bodies = {scene::make_body("mass", 2.0, {{0.1, 0.1, 0.1}}, Vec3::zero())};
-      scene::Bushing spring;
-      spring.name = "spring";
-      spring.second.to = "mass";
-      for (int i = 0; i < 6; ++i) spring.stiffness(i, i) = 2.0 * w * w;
-      s.bushings = {spring};
+      s.couplings = {scene::make_coupling(elements::kind_of<elements::Bushing>, "spring", "", "mass")};
+      for (std::size_t i = 0; i < 6; ++i) s.couplings[0].values[7 * i] = 2.0 * w * w;
       scene::InitialVelocity push;
       push.of = "mass";
       push.velocity = {{0.1, 0.0, 0.0}};

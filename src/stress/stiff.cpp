@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bench.hpp"
+#include "bough/elements/catalogue.hpp"
 #include "bough/io/number_text.hpp"
 #include "bough/scene/parts.hpp"
 
@@ -77,14 +78,11 @@ scene::Scene two_bars(double stiffness) {
   const scene::JointKind hinge = scene::JointKind::revolute;
   s.joints = {scene::make_joint("root", hinge, "", Vec3::zero(), "upper", {{-0.5, 0, 0}})};
   if (stiffness > 0.0) {
-    scene::Bushing b;
-    b.name = "bushing";
-    b.first.to = "upper";
+    scene::Coupling b = scene::make_coupling(elements::kind_of<elements::Bushing>, "bushing", "upper", "lower");
     b.first.offset.x = {{0.5, 0, 0}};
-    b.second.to = "lower";
     b.second.offset.x = {{-0.5, 0, 0}};
-    for (int i = 0; i < 5; ++i) b.stiffness(i, i) = stiffness;
-    s.bushings = {b};
+    for (std::size_t i = 0; i < 5; ++i) b.values[7 * i] = stiffness;
+    s.couplings = {b};
   } else {
     s.joints.push_back(scene::make_joint("middle", hinge, "upper", {{0.5, 0, 0}}, "lower", {{-0.5, 0, 0}}));
   }

@@ -244,17 +244,32 @@ Sample<E> catalogued_sample(Ends ends) {
     Sample<E> s;
     s.name = std::string(E::words.name) + ", ends " + std::to_string(static_cast<int>(ends));
     std::vector<double> values;
-    for (const scene::CouplingField& field : kind_of<E>.fields)
-      for (int i = 0; i < field.count(); ++i)
-        values.push_back(field.type == scene::CouplingFieldType::number
-                             ? std::max(field.low, -1.0) + 0.8 + numbers.next(0.5)
-                             : numbers.next());
-    take_data(s.element, values.data(), Mat3<double>::identity());
+    std::vector<int> laws;
+    for (const scene::CouplingField& field : kind_of<E>.fields) {
+      if (field.type == scene::CouplingFieldType::law) {
+        laws.push_back(2);  // above 0
+      } else if (field.type == scene::CouplingFieldType::matrix) {
+        const Mat6<double> matrix = numbers.definite();
+        values.insert(values.end(), std::begin(matrix.m), std::end(matrix.m));
+      } else {
+        for (std::size_t i = 0; i < field.count(); ++i)
+          values.push_back(field.type == scene::CouplingFieldType::number
+                               ? std::max(field.low, -1.0) + 0.8 + numbers.next(0.5)
+                               : numbers.next());
+      }
+    }
+    take_data(s.element, values.data(), Mat3<double>::identity(), laws.data());
+    take_start(s.element, Frame<double>::identity());
     set_ports(s.element.ports, ends, numbers);
     const Frame<double> first = numbers.frame(), second = numbers.frame();
     place(s, {first, second}, numbers);
     const PortMotion<double> at[2] = {{first, {}, {}}, {second, {}, {}}};
-    if (eval_strain_energy(s.element, at) > 0.5) return s;
+    double energy = 0.0;
+    if constexpr (requires { eval_strain_energy(s.element, at, s.laws.data()); })
+      energy = eval_strain_energy(s.element, at, s.laws.data());
+    else
+      energy = eval_strain_energy(s.element, at);
+    if (energy > 0.5) return s;
   }
   throw std::runtime_error(std::string(E::words.name) + ": no sample is strained");
 }
@@ -326,6 +341,11 @@ inline std::vector<Sample<Joint>> joint_samples() {
 inline Sample<Spring> undamped(Sample<Spring> s) {
   s.name += ", undamped";
   s.element.damping = 0.0;
+  return s;
+}
+inline Sample<Bushing> undamped(Sample<Bushing> s) {
+  s.name += ", undamped";
+  s.element.has_damping = false;
   return s;
 }
 inline Sample<Joint> undamped(Sample<Joint> s) {

@@ -6,6 +6,7 @@
 
 #include "bough/io/read_scene.hpp"
 #include "bough/motion/se3.hpp"
+#include "bough/scene/couplings.hpp"
 #include "bough/scene/poses.hpp"
 #include "scene_base.hpp"
 #include "support/source_dir.hpp"
@@ -139,7 +140,7 @@ TEST(SceneRead, a_universal_joint_has_its_first_axis_in_the_first_and_its_second
 
 TEST(SceneRead, springs_rest_at_their_first_length_unless_told) {
   const scene::Scene s = good(test::base_scene());
-  EXPECT_DOUBLE_EQ(s.springs[0].rest_length, std::sqrt(1.0 + 4.0 + 1.0));
+  EXPECT_DOUBLE_EQ(scene::line_force_of(s.couplings[0])->rest_length, std::sqrt(1.0 + 4.0 + 1.0));
 }
 
 TEST(SceneRead, laws_of_every_kind_have_the_values_they_promise) {

@@ -1,6 +1,10 @@
 #include "links.hpp"
 
+#include <algorithm>
+
+#include "bough/elements/catalogue.hpp"
 #include "bough/laws/make_law.hpp"
+#include "bough/scene/parts.hpp"
 
 namespace lean {
 
@@ -66,27 +70,23 @@ void add_couplings(scene::Scene& s, const Links& l) {
       j.forces.push_back(f);
       s.joints.push_back(j);
     } else {
-      scene::Bushing b;
-      b.name = "bush" + std::to_string(k);
+      scene::Coupling b =
+          scene::make_coupling(elements::kind_of<elements::Bushing>, "bush" + std::to_string(k), "", "");
       b.first = first;
       b.second = second;
-      b.stiffness = diagonal(1e4, 50.0);
-      if (l.is_damped) b.damping = diagonal(10.0, 0.1);
-      s.bushings.push_back(b);
+      std::copy_n(diagonal(1e4, 50.0).m, 36, b.values.begin());
+      if (l.is_damped) std::copy_n(diagonal(10.0, 0.1).m, 36, b.values.begin() + 36);
+      s.couplings.push_back(b);
     }
   }
 }
 
 void add_springs(scene::Scene& s, const Links& l) {
   for (int k = 0; k < l.count; ++k) {
-    scene::Spring p;
-    p.name = "spring" + std::to_string(k);
-    p.first = at("", k * length, 1.0, l.in_plane ? 0.0 : 0.2);
-    p.second = at(link_name(k), 0.0);
-    p.stiffness = 40.0;
-    p.rest_length = 0.9;
-    p.damping = l.is_damped ? 0.5 : 0.0;
-    s.springs.push_back(p);
+    s.couplings.push_back(scene::make_coupling(elements::kind_of<elements::Spring>, "spring" + std::to_string(k), "",
+                                               link_name(k), {40.0, 0.9, l.is_damped ? 0.5 : 0.0}));
+    s.couplings.back().first = at("", k * length, 1.0, l.in_plane ? 0.0 : 0.2);
+    s.couplings.back().second = at(link_name(k), 0.0);
   }
 }
 
@@ -133,7 +133,7 @@ scene::Scene make_links(const Links& l) {
 scene::Scene make_beads(bool are_points) {
   const Links l{.has_joints = false, .has_springs = false, .has_point_masses = are_points};
   scene::Scene s = make_links(l);
-  s.bushings.clear();
+  s.couplings.clear();
   scene::Node root;
   root.name = "root";
   s.nodes.push_back(root);
@@ -156,7 +156,7 @@ scene::Scene make_beads(bool are_points) {
 scene::Scene make_net() {
   Links l{.has_joints = false, .has_beams = false, .has_point_masses = true};
   scene::Scene s = make_links(l);
-  s.bushings.clear();
+  std::erase_if(s.couplings, [](const scene::Coupling& c) { return c.kind == &elements::kind_of<elements::Bushing>; });
   return s;
 }
 

@@ -8,6 +8,7 @@
 #include "bough/laws/make_law.hpp"
 #include "bough/plan/plan.hpp"
 #include "bough/scene/components.hpp"
+#include "support/given.hpp"
 
 namespace bough::plan {
 namespace {
@@ -116,11 +117,11 @@ TEST(MakePlan, gives_a_point_mass_displacements_alone_only_where_nothing_depends
     b.is_point_mass = true;
     s.bodies.push_back(b);
   }
-  scene::Spring spring;
+  support::GivenSpring spring;
   spring.name = "line";
   spring.first.offset.x = {{0.0, 1.0, 0.0}};
   spring.second.to = "free";
-  s.springs.push_back(spring);
+  s.couplings.push_back(spring);
   scene::Joint j;
   j.name = "hinge";
   j.kind = scene::JointKind::revolute;

@@ -3,6 +3,7 @@
 
 #include "bough/motion/so3.hpp"
 #include "decision_of.hpp"
+#include "support/given.hpp"
 
 namespace bough::plan {
 namespace {
@@ -30,15 +31,15 @@ scene::Scene make_row(double beside) {
   s.bodies = {point_mass("a", 0.5 * slope), point_mass("b", slope + Vec3<double>{{0.0, 0.0, beside}})};
   const char* ends[4] = {"", "a", "b", ""};
   for (std::size_t k = 0; k < 3; ++k) {
-    scene::Spring spring;
+    support::GivenSpring spring;
     spring.name = "s" + std::to_string(k);
     spring.first.to = ends[k];
     spring.second.to = ends[k + 1];
     spring.stiffness = 100.0 + static_cast<double>(k);
     spring.rest_length = 0.4;
-    s.springs.push_back(spring);
+    s.couplings.push_back(spring);
   }
-  s.springs.back().second.offset.x = 1.7 * slope;
+  s.couplings.back().second.offset.x = 1.7 * slope;
   return s;
 }
 
@@ -76,18 +77,18 @@ TEST(ReducedModel, of_translations_is_refused_with_the_part_that_turns) {
             }),
             "'push': it follows rotations");
   EXPECT_EQ(reason_against([](scene::Scene& s) {
-              scene::Bushing bushing;
+              support::GivenBushing bushing;
               bushing.name = "mount";
               bushing.first.to = "a";
               bushing.second.to = "b";
               bushing.stiffness = motion::Mat6<double>::identity();
-              s.bushings.push_back(bushing);
+              s.couplings.push_back(bushing);
             }),
             "'mount': it holds rotations");
   EXPECT_EQ(reason_against([](scene::Scene& s) {
               s.bodies[1].is_point_mass = false;
               s.bodies[1].inertia = motion::Mat3<double>::identity();
-              s.springs[1].second.offset.x = {{0.0, 0.1, 0.0}};
+              s.couplings[1].second.offset.x = {{0.0, 0.1, 0.0}};
             }),
             "'s1': it takes hold beside the origin of a body's frame");
   EXPECT_EQ(reason_against([](scene::Scene& s) {

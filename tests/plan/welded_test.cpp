@@ -7,6 +7,7 @@
 #include "../step/small_scenes.hpp"
 #include "bough/elements/body.hpp"
 #include "decision_of.hpp"
+#include "support/given.hpp"
 
 namespace bough::plan {
 namespace {
@@ -104,11 +105,11 @@ TEST(WeldedNodes, carry_bodies_and_what_takes_hold_of_them_at_offsets) {
     sensor.at.to = "lump";
     sensor.at.offset.x = {{0.1, 0.2, 0.3}};
     s.sensors.push_back(sensor);
-    scene::Spring spring;
+    support::GivenSpring spring;
     spring.name = "rope";
     spring.second.to = "lump";
     spring.stiffness = 1.0;
-    s.springs.push_back(spring);
+    s.couplings.push_back(spring);
   });
   const auto tip = static_cast<int>(node_of(p, "b2"));
   ASSERT_EQ(p.sensors.size(), 1u);
@@ -162,10 +163,10 @@ TEST(WeldedNodes, have_the_masses_of_all_bodies_in_one) {
 TEST(WeldedNodes, take_the_place_of_the_one_where_most_elements_meet) {
   const Plan p = plan_of([](Scene& s) {
     for (int k = 0; k < 3; ++k) {
-      scene::Spring spring;
+      support::GivenSpring spring;
       spring.name = "rope" + std::to_string(k);
       spring.second.to = "lump";
-      s.springs.push_back(spring);
+      s.couplings.push_back(spring);
     }
   });
   EXPECT_EQ(p.bodies[0].frame.node, static_cast<int>(node_of(p, "lump")));
@@ -296,11 +297,11 @@ TEST(WeldedNodes, are_not_taken_with_a_reason_where_the_joint_matters) {
             }),
             "joint 'hold': its two sides do not start with one motion");
   EXPECT_EQ(reason([](Scene& s) {
-              scene::Spring spring;
+              support::GivenSpring spring;
               spring.name = "rope";
               spring.first.to = "b2";
               spring.second.to = "lump";
-              s.springs.push_back(spring);
+              s.couplings.push_back(spring);
             }),
             "the part of 'b2': 'rope' would have both ends at one node");
   EXPECT_EQ(reason([](Scene& s) { s.analysis.step_control = scene::StepControl{}; }),
@@ -371,11 +372,11 @@ TEST(WeldedNodes, at_one_place_turn_no_more_than_one_alone) {
   s.analysis.end_time = 0.1;
   s.bodies = {body("a", {{1.0, 0.0, 0.0}}), body("b", {{1.0, 0.0, 0.0}})};
   s.joints = {fixed("both", "a", "b")};
-  scene::Spring spring;
+  support::GivenSpring spring;
   spring.name = "rope";
   spring.second.to = "b";
   spring.stiffness = 1.0;
-  s.springs.push_back(spring);
+  s.couplings.push_back(spring);
   s.without = {"line"};
   const Plan p = make_plan(s);
   EXPECT_TRUE(p.took("translation")) << test::decision_of(p, "translation").reason;

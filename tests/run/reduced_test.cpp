@@ -6,6 +6,7 @@
 
 #include "bough/results/energies.hpp"
 #include "step/same_motion.hpp"
+#include "support/given.hpp"
 #include "support/rig.hpp"
 #include "support/scenes.hpp"
 
@@ -270,10 +271,13 @@ TEST(Unknowns, are_six_with_a_reason_where_something_leaves_the_plane) {
             "'follower': its moment acts out of the plane");
   EXPECT_EQ(reason([](Scene& s) { s.initial_velocities[0].velocity[2] = 1e-6; }),
             "'weight': it starts out of the plane");
-  EXPECT_EQ(reason([](Scene& s) { s.springs[0].second.offset.x[2] = 1e-6; }),
+  EXPECT_EQ(reason([](Scene& s) { s.couplings[0].second.offset.x[2] = 1e-6; }),
             "'spring': it takes hold outside the plane");
   EXPECT_EQ(reason([](Scene& s) { s.joints[4].kind = scene::JointKind::screw; }), "'ball': it is a screw");
-  EXPECT_EQ(reason([](Scene& s) { s.bushings[0].stiffness(0, 2) = s.bushings[0].stiffness(2, 0) = 1e-3; }),
+  EXPECT_EQ(reason([](Scene& s) {
+              const std::span<double> K = support::values_of(s.couplings.back(), "stiffness");
+              K[2] = K[12] = 1e-3;
+            }),
             "'mount': its stiffness or damping couples motions in the plane with others");
 }
 
@@ -319,8 +323,7 @@ TEST(PlanarSteps, keep_momenta_by_the_variational_integrator) {
   s.motions.clear();
   s.point_loads.clear();
   s.line_loads.clear();
-  s.springs.clear();
-  s.bushings.clear();
+  s.couplings.clear();
   s.gravity = Vec3<double>::zero();
   s.analysis.integrator = scene::Integrator::variational;
   Rig rig(s);

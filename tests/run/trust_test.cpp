@@ -9,6 +9,7 @@
 #include "bough/run/memory_run.hpp"
 #include "bough/run/simulate.hpp"
 #include "bough/scene/parts.hpp"
+#include "support/given.hpp"
 #include "support/untrapped.hpp"
 
 namespace bough::run {
@@ -215,12 +216,12 @@ TEST(Trust, springs_that_pass_through_length_0_are_named_and_those_that_turn_rou
   const auto is_told = [](double sideways, double along, int stride) {
     scene::Scene s;
     s.bodies = {scene::make_body("dot", 1.0, {{1.0, 1.0, 1.0}}, {{0.0, -0.1, 0.0}})};
-    scene::Spring spring;
+    support::GivenSpring spring;
     spring.name = "rope";
     spring.second.to = "dot";
     spring.stiffness = 8000.0;
     spring.rest_length = 0.05;
-    s.springs = {spring};
+    s.couplings = {spring};
     scene::InitialVelocity v;
     v.of = "dot";
     v.velocity = {{sideways, along, 0.0}};
@@ -320,12 +321,12 @@ TEST(Trust, forces_that_round_off_leaves_unbalanced_are_told) {
   stiff.name = "stiff";
   stiff.gravity = {{0.0, -9.81, 0.0}};
   stiff.bodies = {scene::make_body("rod", 1.0, {{0.01, 0.1, 0.1}}, {{0.3, 0.4, 0.0}})};
-  scene::Bushing b;
+  support::GivenBushing b;
   b.name = "bushing";
   b.second.to = "rod";
   b.second.offset.x = {{-0.3, -0.4, 0.0}};
   for (int i = 0; i < 5; ++i) b.stiffness(i, i) = 1e14;
-  stiff.bushings = {b};
+  stiff.couplings = {b};
   stiff.analysis.step_size = 1e-3;
   stiff.analysis.end_time = 0.05;
   const MemoryRun swinging = run_in_memory(stiff);
@@ -338,11 +339,11 @@ TEST(Trust, energy_that_the_integrator_takes_is_told) {
   scene::Scene s;
   s.name = "mass on a spring";
   s.bodies = {scene::make_body("mass", 1.0, {{0.1, 0.1, 0.1}}, Vec3::zero())};
-  scene::Bushing spring;
+  support::GivenBushing spring;
   spring.name = "spring";
   spring.second.to = "mass";
   for (int i = 0; i < 6; ++i) spring.stiffness(i, i) = 1e4;
-  s.bushings = {spring};
+  s.couplings = {spring};
   scene::InitialVelocity kick;
   kick.of = "mass";
   kick.velocity = {{1.0, 0.0, 0.0}};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bough/io/number_text.hpp"
+#include "bough/scene/couplings.hpp"
 #include "support/scenes.hpp"
 
 namespace bough::run {
@@ -47,7 +48,9 @@ std::string in_brackets(double x) {
 
 /// Springs and dampers between points as struts with an effort that is a formula of their length and its rate.
 scene::Scene with_springs_as_signals(scene::Scene s) {
-  for (const scene::Spring& spring : s.springs) {
+  for (const scene::Coupling& spring : s.couplings) {
+    const auto tension = scene::line_force_of(spring);
+    if (!tension) continue;
     scene::Joint strut;
     strut.name = spring.name;
     strut.kind = scene::JointKind::strut;
@@ -64,8 +67,8 @@ scene::Scene with_springs_as_signals(scene::Scene s) {
     force.kind = scene::SignalKind::formula;
     force.inputs = {length.name, rate.name};
     force.formula =
-        laws::Formula("-" + in_brackets(spring.stiffness) + "*(" + length.name + " - " +
-                          in_brackets(spring.rest_length) + ") - " + in_brackets(spring.damping) + "*" + rate.name,
+        laws::Formula("-" + in_brackets(tension->stiffness) + "*(" + length.name + " - " +
+                          in_brackets(tension->rest_length) + ") - " + in_brackets(tension->damping) + "*" + rate.name,
                       force.inputs);
     scene::JointForce effort;
     effort.coordinate = "displacement";
@@ -74,7 +77,7 @@ scene::Scene with_springs_as_signals(scene::Scene s) {
     s.joints.push_back(strut);
     for (const scene::Signal* signal : {&length, &rate, &force}) s.signals.push_back(*signal);
   }
-  s.springs.clear();
+  s.couplings.clear();
   return s;
 }
 

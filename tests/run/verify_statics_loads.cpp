@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "bough/laws/make_law.hpp"
+#include "support/given.hpp"
 #include "verify_scenes.hpp"
 
 namespace bough::verify {
@@ -254,12 +255,12 @@ TEST(VerifyStatics, bushings_answer_with_their_stiffness) {
   b.mass = 2.0;
   b.inertia = motion::Mat3<double>::identity();
   s.bodies = {b};
-  scene::Bushing k;
+  support::GivenBushing k;
   k.name = "mount";
   k.second.to = "block";
   const double diagonal[6] = {100, 200, 300, 10, 20, 30};
   for (int i = 0; i < 6; ++i) k.stiffness(i, i) = diagonal[i];
-  s.bushings = {k};
+  s.couplings = {k};
   s.analysis.kind = scene::AnalysisKind::statics;
   s.sensors = {scene::make_point_sensor("at", scene::SensorKind::position, "block"),
                scene::make_point_sensor("turn", scene::SensorKind::rotation, "block")};
@@ -292,13 +293,13 @@ TEST(VerifyStatics, springs_carry_a_weight) {
   b.placement.pose.x = {{0, 0, -0.6}};
   s.bodies = {b};
   for (int i = 0; i < 3; ++i) {
-    scene::Spring spring;
+    support::GivenSpring spring;
     spring.name = "spring " + std::to_string(i);
     spring.first.offset.x = {{0.8 * std::cos(2 * pi * i / 3), 0.8 * std::sin(2 * pi * i / 3), 0.0}};
     spring.second.to = "weight";
     spring.stiffness = k;
     spring.rest_length = rest;
-    s.springs.push_back(spring);
+    s.couplings.push_back(spring);
   }
   s.gravity = {{0, 0, -10}};
   s.analysis.kind = scene::AnalysisKind::statics;

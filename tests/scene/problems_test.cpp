@@ -5,6 +5,7 @@
 
 #include "bough/laws/make_law.hpp"
 #include "bough/motion/se3.hpp"
+#include "bough/scene/parts.hpp"
 
 namespace bough::scene {
 namespace {
@@ -171,6 +172,41 @@ TEST(SceneProblems, indefinite_and_coupled_matrices_are_found) {
   EXPECT_EQ(with(1.0, 1.001), (Places{"sections 0 mass"}));
   EXPECT_EQ(with(0.0, 0.0), Places{});
   EXPECT_EQ(with(0.0, 0.1), (Places{"sections 0 mass"})) << "coupling without mass";
+}
+
+/// A number, a direction, a matrix and a factor of it.
+constexpr CouplingField pull_fields[] = {
+    {.name = "pull", .unit = "N", .about = "F.", .standard = "0", .is_strength = true},
+    {.name = "along", .type = CouplingFieldType::direction, .unit = "-", .about = "Where to."},
+    {.name = "block", .type = CouplingFieldType::matrix, .unit = "N/m", .about = "K.", .is_strength = true},
+    {.name = "factor", .type = CouplingFieldType::law, .unit = "-", .about = "Of K.", .multiplied = "block"}};
+constexpr CouplingKind pulls{"pulls",     "pull", "Pulls.", "One end.",           "The other.",
+                             pull_fields, false,  false,    CouplingStart::apart, nullptr};
+
+TEST(SceneProblems, fields_of_couplings_are_checked_as_their_kind_declares_them) {
+  Scene s = cantilever();
+  s.couplings = {make_coupling(pulls, "c", "", "tip", {1.0, 0.0, 0.0, 2.0})};
+  Coupling& c = s.couplings[0];
+  EXPECT_EQ(places(s), Places{});
+  const Coupling good = c;
+  c.values[0] = -1.0;
+  EXPECT_EQ(places(s), (Places{"couplings 0 pull"}));
+  c.values[0] = 0.0;
+  EXPECT_EQ(places(s), (Places{"warning couplings 0 "}));
+  EXPECT_EQ(problems_in(s, {})[0].rule, "without pull and block it does nothing");
+  c = good;
+  c.values[3] = 0.0;
+  EXPECT_EQ(places(s), (Places{"couplings 0 along"}));
+  c = good;
+  c.factors[0].law = laws::make_constant(2.0);
+  EXPECT_EQ(places(s), (Places{"couplings 0 factor"}));
+  c.values[4] = 3.0;
+  EXPECT_EQ(places(s), Places{});
+  c.values[4] = -3.0;
+  EXPECT_EQ(places(s), (Places{"couplings 0 block"}));
+  c = good;
+  c.values.pop_back();
+  EXPECT_EQ(places(s), (Places{"couplings 0 values"}));
 }
 
 TEST(SceneProblems, a_mass_off_the_axis_without_inertia_of_its_own_is_semi_definite) {

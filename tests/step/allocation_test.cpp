@@ -6,6 +6,7 @@
 #include "bough/schedule/serial.hpp"
 #include "bough/step/advance.hpp"
 #include "small_scenes.hpp"
+#include "support/given.hpp"
 
 namespace {
 long allocations = 0;
@@ -116,14 +117,14 @@ TEST(Advance, allocates_nothing_after_the_first_step_in_moving_frames) {
     scene.frames.push_back(frame);
   }
   scene.frames[1].placement.frame = "table";
-  scene::Spring spring;
+  support::GivenSpring spring;
   spring.name = "rope";
   spring.first.to = "hook";
   spring.first.offset.x = {{3.0, 1.0, 0.0}};
   spring.second.to = "b3";
   spring.stiffness = 50.0;
   spring.rest_length = 1.0;
-  scene.springs.push_back(spring);
+  scene.couplings.push_back(spring);
   scene.analysis.frame = "table";
   EXPECT_EQ(allocations_of_steps(scene, 20), 0);
 }

@@ -7,6 +7,7 @@
 #include "bough/schedule/threads.hpp"
 #include "bough/step/residual_rate.hpp"
 #include "same_motion.hpp"
+#include "support/given.hpp"
 
 namespace bough::step {
 namespace {
@@ -38,14 +39,14 @@ scene::Scene varied(int order) {
   wall.second.offset.R = wall.first.offset.R;
   s.joints.push_back(wall);
   s.joints.push_back(test::make_arm_hinge());
-  scene::Spring rope;
+  support::GivenSpring rope;
   rope.name = "rope";
   rope.first.to = "block";
   rope.second.to = "b1";
   rope.stiffness = 30.0;
   rope.damping = 2.0;
   rope.rest_length = 1.5;
-  s.springs.push_back(rope);
+  s.couplings.push_back(rope);
   scene::PointLoad load;
   load.name = "push";
   load.at.to = "block";
@@ -185,13 +186,13 @@ TEST(HeldNodes, without_rotations_move_nothing_else) {
       b.placement.pose.x = {{k == 2 ? beside : 0.0, 0.5 * beside * k, -static_cast<double>(k)}};
       s.bodies.push_back(b);
       if (k == 0) continue;
-      scene::Spring spring;
+      support::GivenSpring spring;
       spring.name = "s" + std::to_string(k);
       spring.first.to = "m" + std::to_string(k - 1);
       spring.second.to = b.name;
       spring.stiffness = 200.0;
       spring.rest_length = 1.0;
-      s.springs.push_back(spring);
+      s.couplings.push_back(spring);
     }
     if (beside > 0.0) {
       scene::PrescribedMotion hold;

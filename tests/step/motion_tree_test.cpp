@@ -8,6 +8,7 @@
 #include "bough/schedule/serial.hpp"
 #include "bough/step/system.hpp"
 #include "small_scenes.hpp"
+#include "support/given.hpp"
 
 namespace bough::step {
 namespace {
@@ -17,12 +18,12 @@ scene::Scene make_loop() {
   scene::Scene s = test::make_chain(3, 3);
   s.analysis.kind = scene::AnalysisKind::statics;
   s.beams[2].end_offset = motion::Vec3<double>{{0.1, -0.2, 0.15}};
-  scene::Spring spring;
+  support::GivenSpring spring;
   spring.name = "spring";
   spring.first.to = "b2";
   spring.second.offset.x = {{1.0, 2.0, 3.0}};
   spring.stiffness = 10.0;
-  s.springs.push_back(spring);
+  s.couplings.push_back(spring);
   return s;
 }
 

@@ -6,6 +6,7 @@
 
 #include "bough/solve/reference/sparse_oracle.hpp"
 #include "small_scenes.hpp"
+#include "support/given.hpp"
 #include "support/rig.hpp"
 
 namespace bough::step {
@@ -59,12 +60,12 @@ TEST(MakeConsistent, refuses_a_part_without_inertia_by_name) {
   scene::Node n;
   n.name = "ghost";
   s.nodes.push_back(n);
-  scene::Spring spring;
+  support::GivenSpring spring;
   spring.name = "line";
   spring.second.to = "ghost";
   spring.first.offset.x = {{1.0, 0.0, 0.0}};
   spring.stiffness = 1.0;
-  s.springs.push_back(spring);
+  s.couplings.push_back(spring);
   Rig rig(s);
   const StartReport report = make_consistent(rig.system, rig.state, true, 1e-3);
   EXPECT_FALSE(report.ok);

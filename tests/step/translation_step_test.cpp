@@ -7,6 +7,7 @@
 
 #include "bough/motion/so3.hpp"
 #include "same_motion.hpp"
+#include "support/given.hpp"
 
 namespace bough::step {
 namespace {
@@ -22,8 +23,8 @@ scene::Body point_mass(const std::string& name, double mass, const Vec3<double>&
   b.placement.pose.x = at;
   return b;
 }
-scene::Spring spring_between(const std::string& a, const std::string& b, double stiffness, double rest_length) {
-  scene::Spring s;
+support::GivenSpring spring_between(const std::string& a, const std::string& b, double stiffness, double rest_length) {
+  support::GivenSpring s;
   s.name = a + "-" + b;
   s.first.to = a;
   s.second.to = b;
@@ -45,8 +46,9 @@ scene::Scene make_net(int across) {
       s.bodies.back().placement.pose.R = motion::exp_so3(Vec3<double>{{0.3 + 0.1 * i, -0.8, 0.5 * j}});
       const auto tie = [&](int k, int l, double length) {
         if (k < 0 || l < 0 || k >= across) return;
-        s.springs.push_back(spring_between(name(k, l), name(i, j), 400.0, length));
-        s.springs.back().damping = 0.3;
+        support::GivenSpring spring = spring_between(name(k, l), name(i, j), 400.0, length);
+        spring.damping = 0.3;
+        s.couplings.push_back(spring);
       };
       tie(i - 1, j, 0.49);
       tie(i, j - 1, 0.48);
@@ -85,10 +87,10 @@ scene::Scene make_row(int masses, const Vec3<double>& direction) {
   for (int k = 1; k <= masses; ++k) {
     const std::string name = "m" + std::to_string(k);
     s.bodies.push_back(point_mass(name, 0.5, (0.25 * k) * direction));
-    s.springs.push_back(spring_between(k == 1 ? "" : "m" + std::to_string(k - 1), name, 800.0, 0.2));
+    s.couplings.push_back(spring_between(k == 1 ? "" : "m" + std::to_string(k - 1), name, 800.0, 0.2));
   }
-  s.springs.push_back(spring_between("m" + std::to_string(masses), "", 800.0, 0.2));
-  s.springs.back().second.offset.x = (0.25 * (masses + 1)) * direction;
+  s.couplings.push_back(spring_between("m" + std::to_string(masses), "", 800.0, 0.2));
+  s.couplings.back().second.offset.x = (0.25 * (masses + 1)) * direction;
   s.analysis.tolerance = 1e-12;
   return s;
 }
@@ -191,8 +193,8 @@ TEST(TranslationStep, keeps_the_digits_of_places_far_away) {
   Rig near(s);
   const Vec3<double> shift{{4096.0, -8192.0, 2048.0}};
   for (scene::Body& b : s.bodies) b.placement.pose.x += shift;
-  s.springs.front().first.offset.x += shift;
-  s.springs.back().second.offset.x += shift;
+  s.couplings.front().first.offset.x += shift;
+  s.couplings.back().second.offset.x += shift;
   Rig far(s);
   ASSERT_TRUE(far.plan.is_on<motion::Translations<3>>());
   near.run(50, 1e-3);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "bough/io/read_scene.hpp"
+#include "support/given.hpp"
 #include "support/source_dir.hpp"
 
 namespace bough::support {
@@ -141,13 +142,16 @@ scene::Scene moved(scene::Scene s, const scene::Frame& to) {
     attach(j.first);
     attach(j.second);
   }
-  for (scene::Spring& k : s.springs) {
-    attach(k.first);
-    attach(k.second);
-  }
-  for (scene::Bushing& k : s.bushings) {
-    attach(k.first);
-    attach(k.second);
+  for (scene::Coupling& c : s.couplings) {
+    attach(c.first);
+    attach(c.second);
+    for (const scene::CouplingField& field : c.kind->fields)
+      if (field.type == scene::CouplingFieldType::direction || field.type == scene::CouplingFieldType::axis) {
+        const auto values = values_of(c, field.name);
+        scene::Vec3 direction{{values[0], values[1], values[2]}};
+        turn(direction);
+        std::copy_n(direction.v, 3, values.begin());
+      }
   }
   const auto turn_load = [&turn](auto& load) {
     if (load.axes != scene::LoadAxes::space) return;

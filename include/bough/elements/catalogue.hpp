@@ -2,14 +2,16 @@
 /// The catalogue: the one list of the couplings that are declared whole in a header.
 #include <tuple>
 
+#include "bough/elements/couplings/bushing.hpp"
 #include "bough/elements/couplings/contact.hpp"
+#include "bough/elements/couplings/spring.hpp"
 #include "bough/elements/couplings/torsion_spring.hpp"
 
 namespace bough::elements {
 
 /// The elements of the catalogue on the group G.
 template <class G>
-using CatalogueOn = std::tuple<ContactOn<G>, TorsionSpringOn<G>>;
+using CatalogueOn = std::tuple<SpringOn<G>, BushingOn<G>, ContactOn<G>, TorsionSpringOn<G>>;
 
 /// Calls f.template operator()<E>() for the type in space of every kind.
 template <class F>

@@ -68,17 +68,15 @@ using FieldOf = FieldOn<motion::Se3, S>;
 using Field = FieldOf<double>;
 
 namespace detail {
-template <class... A, class... B>
-std::tuple<A..., B...> joined(std::tuple<A...>*, std::tuple<B...>*);
+template <class G, class... Coupling>
+std::tuple<BeamOn<G, 2>, BeamOn<G, 3>, BeamOn<G, 4>, RigidBodyOn<G>, JointOn<G>, Coupling..., PointLoadOn<G>,
+           LineLoadOn<G, 2>, LineLoadOn<G, 3>, LineLoadOn<G, 4>>
+elements_with(std::tuple<Coupling...>*);
 }  // namespace detail
-/// All types of elements on the group G, those of the catalogue last: the one list of them. A type that cannot live
-/// on G stands in it all the same, so that an element has one place in the lists of all groups.
+/// All types of elements on the group G, with the couplings of the catalogue: the one list of them. A type that cannot
+/// live on G stands in it all the same, so that an element has one place in the lists of all groups.
 template <class G>
-using ElementsOn = decltype(detail::joined(
-    static_cast<std::tuple<BeamOn<G, 2>, BeamOn<G, 3>, BeamOn<G, 4>, RigidBodyOn<G>, JointOn<G>, SpringOn<G>,
-                           BushingOn<G>, PointLoadOn<G>, LineLoadOn<G, 2>, LineLoadOn<G, 3>, LineLoadOn<G, 4>>*>(
-        nullptr),
-    static_cast<CatalogueOn<G>*>(nullptr)));
+using ElementsOn = decltype(detail::elements_with<G>(static_cast<CatalogueOn<G>*>(nullptr)));
 
 /// True for elements whose forces depend on motions with respect to the inertial frame.
 template <class E>

@@ -19,9 +19,7 @@ struct ConstraintRowOn : G::template Direction<C> {
   int law = -1;      ///< -1: zero
   C constant = 0.0;  ///< displacement per radian (screw) [m/rad], length (between points) [m]
 };
-template <class C>
-using ConstraintRowOf = ConstraintRowOn<motion::Se3, C>;
-using ConstraintRow = ConstraintRowOf<double>;
+using ConstraintRow = ConstraintRowOn<motion::Se3, double>;
 
 template <class G, class C>
 struct EffortOn {
@@ -31,9 +29,7 @@ struct EffortOn {
   typename G::template Direction<C> direction =
       G::template Direction<C>::axial();  ///< in space axis 3 of the first frame
 };
-template <class C>
-using EffortOf = EffortOn<motion::Se3, C>;
-using Effort = EffortOf<double>;
+using Effort = EffortOn<motion::Se3, double>;
 
 constexpr int max_rows = 6;
 constexpr int max_efforts = 4;
@@ -81,9 +77,7 @@ struct JointOn {
     }
   }
 };
-template <class C>
-using JointOf = JointOn<motion::Se3, C>;
-using Joint = JointOf<double>;
+using Joint = JointOn<motion::Se3>;
 
 /// Whether an effort has a damper; if none has, no velocities are needed.
 template <class G, class C>
@@ -124,7 +118,7 @@ BOUGH_INLINE S eval_row(const ConstraintRowOn<G, C>& row, const typename G::temp
 
 /// In space, the gradient (linear; angular) as a plain vector.
 template <class S, class C>
-S eval_row(const ConstraintRowOf<C>& row, const Frame<S>& H, const C& turns, const Constant<S>* laws,
+S eval_row(const ConstraintRowOn<motion::Se3, C>& row, const Frame<S>& H, const C& turns, const Constant<S>* laws,
            Vec6<S>& gradient) {
   motion::DualVec<S> g;
   const S value = eval_row<motion::Se3, S, C>(row, H, turns, laws, g);

@@ -10,7 +10,7 @@ namespace bough::elements {
 /// Momentum of each port, P = dL/dv, and force F = -dL/dq - loads + damping, by right increments of the ports, in
 /// their own axes; the forces resist the motion, as residuals do. d/dt P - ad(v)^T P + F is the residual of the
 /// equations of motion. force == nullptr: P only. `elastic_inertia` tau [s^2] adds tau/2 times the strain energy with
-/// rates of strain for strains, of beams and bushings, to L: no rigid motion has any of it. For linear elasticity tau
+/// rates of strain for strains, of elements that have a stiffness matrix, to L: no rigid motion has any of it. For linear elasticity tau
 /// tau = (beta - 1/4) h^2 makes the midpoint rule that of Newmark with beta (Kane, Marsden, Ortiz, West 2000).
 /// Surroundings are those of dynamics; accelerations are not used. This overload: elements without inertia, whose force
 /// is their residual.
@@ -75,20 +75,21 @@ void eval_port_momenta(const BeamRates<G, S, N>& b, const RateMomenta<G, S, N>& 
 
 /// Includes the momentum tau K d' of the elastic inertia, d = log(H_a^-1 H_b), K the stiffness without its factor: what
 /// a law changes at will has no part in momenta.
-template <class G, class S, class C>
-void eval_momentum(const BushingOn<G, C>& bushing, const PortMotionOn<G, S>* ports, const SurroundingsOn<G, S>& around,
-                   double elastic_inertia, S* momentum, S* force) {
+template <IsCatalogued E, class G, class S>
+requires(E::has_stiffness_matrix) void eval_momentum(const E& e, const PortMotionOn<G, S>* ports,
+                                                     const SurroundingsOn<G, S>& around, double elastic_inertia,
+                                                     S* momentum, S* force) {
   BeamRates<G, S, 2> b;
   eval_beam_rates<G, S, 2>(ports, around, false, true, b);
   RateMomenta<G, S, 2> m;
-  m.by_rate[1] = G::scaled(elastic_inertia, G::matrix_times(bushing.stiffness, b.rate[1]));
+  m.by_rate[1] = G::scaled(elastic_inertia, G::matrix_times(e.stiffness, b.rate[1]));
   const auto zero = G::wrench(G::template Vector<S>::zero());
   typename G::template Wrench<S> p[2] = {zero, zero};
   eval_port_momenta<G, S, 2>(b, m, momentum, p);
   if (force == nullptr) return;
   S inertial[2 * G::dof];
   eval_nodal_wrenches<G, S, 2>(b, p, sum_relative_forces<G, S, 2>(b, p), inertial);
-  eval_residual(bushing, ports, around, force);
+  eval_residual(e, ports, around, force);
   for (int k = 0; k < 2 * G::dof; ++k) force[k] = force[k] + inertial[k];
 }
 

@@ -148,8 +148,9 @@ struct PortSlopesOn {
 };
 
 /// Defaults for elements that declare nothing else: whether they have mass, and how much [kg]; whether they dissipate
-/// energy (an element without mass whose forces depend on velocities is a damper); whether they exchange energy with
-/// the outside, as loads do.
+/// energy (an element without mass whose forces depend on velocities is a damper); the law by which their strain energy
+/// is multiplied, -1: none, which does work as it changes, the energy at the value 1 times its change; whether they
+/// exchange energy with the outside, as loads do.
 template <class E>
 bool has_mass(const E&) {
   return false;
@@ -163,14 +164,12 @@ bool dissipates(const E& e) {
   return E::role != Role::body && looks_at_rates(e);
 }
 template <class E>
-bool exchanges_energy(const E& e) {
-  return E::role == Role::load || dissipates(e);
-}
-/// The law by which the strain energy of an element is multiplied, -1: none. As it changes it does work, the energy at
-/// the value 1 times its change.
-template <class E>
 int stiffness_law(const E&) {
   return -1;
+}
+template <class E>
+bool exchanges_energy(const E& e) {
+  return E::role == Role::load || dissipates(e) || stiffness_law(e) >= 0;
 }
 
 /// Of one element, for the balances of a run.

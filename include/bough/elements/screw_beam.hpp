@@ -35,6 +35,17 @@ BOUGH_INLINE void eval_screw_rates(const PortMotionOn<G, S>* p, const Surroundin
   r.c = eval_weighed_acceleration(p[1], around) - r.b;
 }
 
+/// Wrenches F_b = T(d)^-T n and F_a = ad(d)^T n - F_b of a coupling with the force n conjugate to d; returns F_b.
+template <class G, class S>
+BOUGH_INLINE typename G::template Wrench<S> put_screw_wrenches(const ScrewRates<G, S>& r,
+                                                               const typename G::template Wrench<S>& n, S* out) {
+  const auto sum = G::dual_bracket(r.inverse.d, n);
+  const auto second = G::add_dual_bracket(G::add(n, 0.5, sum), r.inverse.d, G::times(r.inverse.q, sum));
+  G::put(second, out + G::dof);
+  G::put(sum - second, out);
+  return second;
+}
+
 /// Motion and forces at the two Gauss points; forces times their weight L/2.
 template <class G, class S>
 struct GaussPair {

@@ -67,7 +67,7 @@ struct BodyPlan {
   std::string name;
   elements::Port frame;
   motion::Vec3<double> center;              ///< of mass, in the body's frame [m]
-  std::vector<elements::Port> attachments;  ///< attachment points of beams, joints, springs and bushings, for pictures
+  std::vector<elements::Port> attachments;  ///< attachment points of beams, joints and couplings, for pictures
 };
 
 /// A fixed joint whose two sides became one node (decision "welded"). It is no element, but pictures show it.

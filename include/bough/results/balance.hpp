@@ -24,7 +24,7 @@ struct Supply {
 ///           others in the axes of the body with the displacement log(H_n^-1 H_{n+1}): exact where they are constant
 ///   drives   W = -1/2 (lambda_n + lambda_{n+1}) (law_{n+1} - law_n),   efforts alike over their coordinate, unless
 ///            they store their energy (plan::EnergyStore)
-///   factors  of the stiffness of bushings  W = 1/2 (E_n + E_{n+1}) (k_{n+1} - k_n), E the strain energy at k = 1
+///   factors  of the stiffness of couplings  W = 1/2 (E_n + E_{n+1}) (k_{n+1} - k_n), E the strain energy at k = 1
 ///  grounds  with prescribed motion: the work of their wrenches on the structure, computed like follower loads
 ///   dampers and impulses by the trapezoidal rule
 /// Displacements, work and impulse are those in the inertial frame, in whatever frame the analysis is described.

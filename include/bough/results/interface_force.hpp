@@ -30,8 +30,8 @@ std::vector<InterfaceForce> eval_interface_forces(const step::System& system, co
 motion::Vec6<double> resultant_of(std::span<const InterfaceForce> forces, const elements::Field& field);
 
 /// The wrench of a part of the scene, all of whose elements are given, on what it acts on: of a load or a prescribed
-/// motion at its place, of a line load about the start of its first element, of a spring or bushing on the second at
-/// its end; (force [N], moment [N m]) in the axes of the ground. It is minus the residual of the elements at these
+/// motion at its place, of a line load about the start of its first element, of a coupling on the second at its
+/// end; (force [N], moment [N m]) in the axes of the ground. It is minus the residual of the elements at these
 /// ports, as above. On the ground it is what balances the wrench on the other side.
 struct PartForce {
   motion::Vec6<double> wrench = motion::Vec6<double>::zero();

@@ -8,8 +8,8 @@
 
 namespace bough::results {
 
-/// Compares the springs of a scene between consecutive calls. A spring with a rest length has passed through length 0
-/// if its ends approached each other along its line at the last call, move apart along it now, and its direction has
+/// Compares springs, all couplings that act along a line, between consecutive calls. One with a rest length has passed
+/// through length 0 if its ends approached each other along its line at the last call, move apart along it now, and its direction has
 /// reversed. A rotation without a passage does not satisfy these conditions.
 class SpringWatch {
  public:
@@ -25,7 +25,7 @@ class SpringWatch {
 
  private:
   struct Seen {
-    int spring = 0;  ///< in the array of springs
+    elements::Port ports[2];
     std::string name;
     motion::Vec3<double> span = motion::Vec3<double>::zero();
     motion::Vec3<double> approach =
@@ -33,7 +33,7 @@ class SpringWatch {
                                        ///< rate
     void checkpoint(records::Archive& archive) { archive(span, approach); }
   };
-  static motion::Vec3<double> rate_of(const elements::Spring& spring, const elements::Field& field);
+  static motion::Vec3<double> rate_of(const Seen& spring, const elements::Field& field);
 
   std::vector<Seen> seen_;
   bool is_first_ = true;

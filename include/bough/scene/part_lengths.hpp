@@ -13,8 +13,8 @@ namespace bough::scene {
 /// Lengths of nodes and bodies by what takes hold of them [m]. Built once from the whole scene; keeps a reference to
 /// the poses, which have to outlive it. A length is the
 /// largest of
-///   the diagonal of the box, in the part's frame, around its centre of mass and all places where joints, springs,
-///   bushings and beams take hold,
+///   the diagonal of the box, in the part's frame, around its centre of mass and all places where joints,
+///   couplings and beams take hold,
 ///   its radius of gyration,
 ///   the longest beam that ends there.
 class PartLengths {

@@ -23,6 +23,9 @@ scene::Joint make_joint(const std::string& name, scene::JointKind kind, const st
                         const Vec3& first_offset, const std::string& second, const Vec3& second_offset);
 /// Body with inertia about its centre, which is its reference point.
 scene::Body make_body(const std::string& name, double mass, const Vec3& inertia, const Vec3& position);
+/// Coupling between the origins of two parts (empty name: the ground); the first of its numbers, the others are 0.
+scene::Coupling make_coupling(const CouplingKind& kind, const std::string& name, const std::string& first,
+                              const std::string& second, std::vector<double> values = {});
 scene::PointLoad make_load(const std::string& node, const Vec3& force, const Vec3& moment = Vec3::zero(),
                            scene::LoadAxes axes = scene::LoadAxes::space);
 scene::Sensor make_point_sensor(const std::string& name, scene::SensorKind kind, const std::string& node);

@@ -20,8 +20,8 @@ Frame resolve(const Scene& scene, const Placement& placement);
 /// none when there is no such name. Each call searches the scene: for many names make a Poses.
 std::optional<Frame> initial_pose(const Scene& scene, const std::string& name);
 
-/// Kind of the part that a name refers to. Frames, nodes, bodies, beams, joints, springs, bushings, loads and motions
-/// share one set of names.
+/// Kind of the part that a name refers to. Frames, nodes, bodies, beams, joints, couplings, loads and motions share one
+/// set of names.
 enum class ThingKind : std::uint8_t { frame, node, body, beam, joint, other };
 struct Thing {
   ThingKind kind;

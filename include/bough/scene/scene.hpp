@@ -151,32 +151,21 @@ struct Joint {
   std::vector<JointDrive> drives;
 };
 
-/// Spring and damper between two points, along the line that joins them.
-struct Spring {
-  std::string name;
-  Attachment first, second;
-  double stiffness = 0.0;  ///< [N/m]
-  double rest_length = 0.0;
-  double damping = 0.0;  ///< [N s/m]
+/// A factor over time (statics: over the load factor), or the signal that gives it [-].
+struct Factor {
+  laws::Law law;
+  std::string signal;  ///< in place of the law; empty: none
+
+  bool is_given() const { return law.node() != nullptr || !signal.empty(); }
 };
 
-/// Elastic and viscous coupling of all six relative motions of two frames: of the second's origin as seen from the
-/// first, and of its rotation; stiffness and damping in the axes of the first.
-struct Bushing {
-  std::string name;
-  Attachment first, second;
-  Mat6 stiffness = Mat6::zero();
-  Mat6 damping = Mat6::zero();
-  laws::Law factor;    ///< of the stiffness, over time (statics: over the load factor) [-]; none: 1
-  std::string signal;  ///< the signal that is the factor in place of the law; empty: none
-};
-
-/// A coupling of the catalogue of elements (elements/coupling.hpp).
+/// A coupling of the catalogue of elements (elements/coupling.hpp), read by couplings.hpp.
 struct Coupling {
   const CouplingKind* kind = nullptr;
   std::string name;
   Attachment first, second;
-  std::vector<double> values;  ///< of the kind's fields, one after the other
+  std::vector<double> values;   ///< of the kind's fields, one after the other; matrices row by row
+  std::vector<Factor> factors;  ///< of its fields that are laws
 };
 
 enum class LoadAxes : std::uint8_t { space, body };  ///< space: dead load, fixed in space; body: follower load, which
@@ -309,7 +298,7 @@ struct Sensor {
   /// an acceleration_split only the axes.
   std::string frame;
   std::string signal;              ///< signal: its name
-  std::string part;                ///< force: a prescribed motion, spring, bushing, load or joint
+  std::string part;                ///< force: a prescribed motion, coupling, load or joint
   std::string subdomain;           ///< interface_force: the child to take at each level of the tree, as "0.1"
   std::vector<std::string> chain;  ///< acceleration_split: frames, nodes or bodies, each moving in the previous one
 };
@@ -552,8 +541,6 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Beam> beams;
   std::vector<Joint> joints;
-  std::vector<Spring> springs;
-  std::vector<Bushing> bushings;
   std::vector<Coupling> couplings;
   std::vector<PointLoad> point_loads;
   std::vector<LineLoad> line_loads;

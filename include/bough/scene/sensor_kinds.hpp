@@ -18,7 +18,7 @@ enum class SensorOf : std::uint8_t {
   coordinate,  ///< a coordinate of a joint
   signal,      ///< a signal of the scene
   subdomain,   ///< a sub-domain of the tree of the solver
-  part,        ///< a prescribed motion, spring, bushing or load (`of`)
+  part,        ///< a prescribed motion, coupling or load (`of`)
   whole,       ///< nothing: it measures the whole structure
 };
 

@@ -14,7 +14,7 @@ struct RigidMotion {
 };
 
 /// Parents before children. Beams are taken up first, then joints, those that leave the least freedom before others,
-/// then springs and bushings: a loop closes where a mismatch makes the least force, at best in constraint rows, which
+/// then couplings: a loop closes where a mismatch makes the least force, at best in constraint rows, which
 /// the next iteration closes.
 struct MotionTree {
   struct Link {

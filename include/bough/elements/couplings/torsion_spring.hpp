@@ -1,7 +1,7 @@
 #pragma once
 /// Spring and damper about an axis, with a moment that may harden.
-#include "bough/elements/body.hpp"
 #include "bough/elements/coupling.hpp"
+#include "bough/elements/screw_beam.hpp"
 
 namespace bough::elements {
 
@@ -13,16 +13,16 @@ struct TorsionSpringOn : CouplingOn<G, C> {
   AxisOn<G, C> axis = AxisOn<G, C>::zero();
   C stiffness = 0.0, hardening = 0.0, damping = 0.0;
 
-  static constexpr bool starts_aligned = true;
+  static constexpr scene::CouplingStart start = scene::CouplingStart::axes;
   static constexpr CouplingWords words{
       "torsion_springs", "torsion_spring",
       "Spring and damper about an axis: k a + k3 a^3 + c a', with the angle a from the start, up to half a turn.",
       "One side, which carries the axis.", "The other side."};
   static constexpr auto declared() {
     return std::tuple{elements::axis("axis", &TorsionSpringOn::axis, "", "Axis of the rotation."),
-                      number("stiffness", &TorsionSpringOn::stiffness, "N m/rad", 0.0, false, "0", "k."),
-                      number("hardening", &TorsionSpringOn::hardening, "N m/rad^3", 0.0, false, "0", "k3."),
-                      number("damping", &TorsionSpringOn::damping, "N m s/rad", 0.0, false, "0", "c.")};
+                      strength("stiffness", &TorsionSpringOn::stiffness, "N m/rad", "k."),
+                      strength("hardening", &TorsionSpringOn::hardening, "N m/rad^3", "k3."),
+                      strength("damping", &TorsionSpringOn::damping, "N m s/rad", "c.")};
   }
 };
 template <class G, class C>

@@ -2,7 +2,7 @@
 /// Couplings of two ports whose force f on the second is a function of the relative motion H = H_a^-1 H_b and of the
 /// relative twist xi = v_b - Q v_a alone, Q = Ad(H)^-1. So it is differentiated in those and carried to the ports:
 ///   zeta = eta_b - Q eta_a,   dxi = dv_b - Q dv_a - ad(Q v_a) zeta,   F_a = -Q^T f,   dF_a = -Q^T (df - hat(f) zeta).
-#include "beam_terms.hpp"
+#include "bough/elements/port.hpp"
 
 namespace bough::elements {
 
