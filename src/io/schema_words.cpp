@@ -171,21 +171,18 @@ std::string place_of(std::string_view text) {
 
 std::vector<SchemaEntry> schema_entries(std::string_view word) {
   std::vector<SchemaEntry> entries;
-  if (word.find_first_of("/.[") != std::string_view::npos) {
-    const std::string place = place_of(word);
-    visit_schemas([&](const std::string&, SchemaEntry entry) {
-      const auto same = [&](const SchemaEntry& e) { return e.format == entry.format && e.about == entry.about; };
-      if (entry.place == place && std::none_of(entries.begin(), entries.end(), same))
-        entries.push_back(std::move(entry));
-    });
-    return entries;
-  }
   visit_schemas([&](const std::string& key, SchemaEntry entry) {
     // Sweeps and studies take parts of scenes, which are not told twice.
     const auto same = [&](const SchemaEntry& e) {
       return (e.place == entry.place || e.format != entry.format) && e.value == entry.value && e.about == entry.about;
     };
     if (key == word && std::none_of(entries.begin(), entries.end(), same)) entries.push_back(std::move(entry));
+  });
+  if (!entries.empty() || word.find_first_of("/.[") == std::string_view::npos) return entries;
+  const std::string place = place_of(word);
+  visit_schemas([&](const std::string&, SchemaEntry entry) {
+    const auto same = [&](const SchemaEntry& e) { return e.format == entry.format && e.about == entry.about; };
+    if (entry.place == place && std::none_of(entries.begin(), entries.end(), same)) entries.push_back(std::move(entry));
   });
   return entries;
 }

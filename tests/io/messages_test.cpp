@@ -260,6 +260,11 @@ TEST(SchemaWords, keys_and_kinds_tell_where_they_stand) {
   EXPECT_EQ(kinds.front().format, "scene");
   EXPECT_TRUE(schema_entries("no such word").empty());
   for (const std::string& word : schema_words()) EXPECT_FALSE(schema_entries(word).empty()) << word;
+  for (const char* const place : {"springs[].damping", "/springs/3/damping"}) {
+    ASSERT_EQ(schema_entries(place).size(), 1u) << place;
+    EXPECT_EQ(schema_entries(place).front().place, "springs[].damping");
+  }
+  EXPECT_TRUE(schema_entries("/springs/3/nothing").empty());
 }
 
 }  // namespace

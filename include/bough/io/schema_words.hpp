@@ -13,8 +13,8 @@ struct SchemaEntry {
   std::string about;   ///< sentences with the unit
 };
 
-/// All entries of a key or value, made from the tables of rules that check files. With a dot, a bracket or a slash: of
-/// a place, as "springs[].stiffness" or the JSON pointer "/springs/0/stiffness".
+/// All entries of a key or value, made from the tables of rules that check files, or those of a place, as
+/// "springs[].stiffness" or the JSON pointer "/springs/0/stiffness".
 std::vector<SchemaEntry> schema_entries(std::string_view word);
 
 /// All keys and values that have entries, each once, in the order of the alphabet.
