@@ -60,10 +60,10 @@ class RoundOff {
   const ElementLengths& lengths_;
   tree::Walker walker_;
   mutable Estimate floor_, of_poses_;
-  std::vector<char> is_length_;                 ///< by unknown: a displacement of a node
-  std::vector<std::int64_t> row_begin_;         ///< by element, into rows_
-  mutable std::vector<double> rows_;            ///< scratch: sums of the rows of elements
-  mutable std::vector<double> sums_;            ///< scratch
+  std::vector<char> is_length_;          ///< by unknown: a displacement of a node
+  std::vector<std::int64_t> row_begin_;  ///< by element, into rows_
+  mutable std::vector<double> rows_;     ///< scratch: sums of the rows of elements
+  mutable std::vector<double> sums_;     ///< scratch
   RoundOffMemory met_;
 };
 
