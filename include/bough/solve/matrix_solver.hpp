@@ -31,7 +31,7 @@ struct MatrixCost {
 /// by the next one for good.
 class MatrixSolver {
  public:
-  /// a: the pattern, without entries that are zero, and values with which methods can be tried. symmetry: of all values
+  /// a: the pattern (n >= 1) without entries that are zero, and values with which methods can be tried. symmetry: of all values
   /// to come. method: the first one, instead of that expected to be the fastest.
   MatrixSolver(const tree::Walker& walker, const SparseColumns& a, Symmetry symmetry,
                std::optional<MatrixMethod> method = {});
