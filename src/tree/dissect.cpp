@@ -57,8 +57,8 @@ std::size_t choose_leaf_size(const Adjacency& adjacency, const std::vector<int>&
                                                std::clamp(count / leaves_of_loops, least, largest_in_loops)));
   // Leaves in lockstep: at least two groups of eight, if there are enough elements. Where no loop is cut, whose rows may
   // depend on others, there are eight groups, so that several threads have work of equal size, unless leaves would be
-  // too small for a visit. (A step of a planar chain of 512 links takes half a percent more on one thread than with
-  // two groups.)
+  // too small for a visit. (`bough profile` foretells half a percent more for a planar chain of 512 links on one thread
+  // than with two groups.)
   constexpr double least_leaf_flops = 1.2e4, least_in_lockstep = 5.0;
   const double two_groups = std::max(count / 12.0, least_in_lockstep), eight_groups = count / 48.0,
                worth_a_visit = std::max(least_leaf_flops / mean, least_in_lockstep),

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bough/blocks/at.hpp"
+#include "bough/solve/front_cost.hpp"
 #include "bough/solve/hierarchical.hpp"
 #include "bough/solve/matrix_blocks.hpp"
 #include "bough/tree/tree.hpp"
@@ -31,8 +32,6 @@ constexpr double least_symmetry = 0.5;
 // front.
 constexpr double per_front = 6.8e-7, per_panel = 1.05e-9, per_flop = 7.4e-11, per_element_entry = 1.3e-8,
                  per_delay = 5e-8;
-// Fronts in lanes are faster than that: a share of their flops counts.
-constexpr double share_in_lanes = 0.25;
 
 /// Elements of a matrix, and what is eliminated on the tree.
 struct OnTree {
@@ -76,15 +75,12 @@ struct OnTree {
   /// After a factorization, whose delayed pivots enlarge fronts.
   double seconds() const {
     const SolverCounters c = solver->counters();
-    double unknowns = 0.0, panels = 0.0;
-    for (const tree::Front& f : tree.fronts) {
-      unknowns += f.num_eliminated;
-      panels += static_cast<double>(f.num_eliminated) * f.size();
-    }
-    const double delayed = solver->last_status().delayed_pivots, mean_front = panels / std::max(unknowns, 1.0);
-    return per_front * tree.num_fronts() + per_panel * panels +
-           per_flop * (c.factor_flops - (1.0 - share_in_lanes) * c.flops_in_lanes) +
-           per_element_entry * element_entries() + per_delay * delayed * mean_front;
+    const double alone = tree.num_fronts() - static_cast<double>(c.fronts_in_lanes),
+                 mean_front = c.panels_alone / std::max(c.columns_alone, 1.0);
+    return front_cost::per_pack * static_cast<double>(c.packs_of_fronts) +
+           front_cost::per_flop_of_pack * c.flops_of_packs + per_front * alone + per_panel * c.panels_alone +
+           per_flop * (c.factor_flops - c.flops_in_lanes) + per_element_entry * element_entries() +
+           per_delay * solver->last_status().delayed_pivots * mean_front;
   }
   double element_entries() const {
     double sum = 0.0;
@@ -116,13 +112,13 @@ struct OnTree {
           out.push_back(unknown_at[at(u)]);
     return out;
   }
-  std::string findings(int n) const {
+  std::string findings() const {
     const FactorStatus& status = solver->last_status();
     if (status.outcome == FactorOutcome::singular) {
       const int place = blocks.unknown_begin[at(status.block)] + status.local;
       const auto found = std::find(blocks.place.begin(), blocks.place.end(), place) - blocks.place.begin();
       return "singular, " + std::to_string(status.deficiency) + " null vectors, most in unknown " +
-             std::to_string(std::min<std::ptrdiff_t>(found, n - 1) + 1);
+             std::to_string(found + 1);
     }
     return status.deficiency > 0 ? std::to_string(status.deficiency) + " dependent rows" : "";
   }
@@ -191,7 +187,7 @@ struct MatrixSolver::State {
     }
     if (on_tree == nullptr) on_tree = std::make_unique<OnTree>(a, symmetry);
     ok = on_tree->factor(walker, a.value);
-    findings = on_tree->findings(a.n);
+    findings = on_tree->findings();
     return ok;
   }
   /// Whether the method solves a system of the values given at first.
@@ -285,7 +281,10 @@ bool MatrixSolver::factor(const tree::Walker& walker, std::span<const double> va
     s.findings = "a number is not finite";
     return false;
   }
-  return s.factor_with(s.method(), walker, false) || s.factor_with_next(walker);
+  const std::size_t before = s.present;
+  if (s.factor_with(s.method(), walker, false) || s.factor_with_next(walker)) return true;
+  s.present = before;  // a singular matrix speaks against no method
+  return false;
 }
 
 MatrixSolver::Solution MatrixSolver::solve(const tree::Walker& walker, const double* b, double* x) {
